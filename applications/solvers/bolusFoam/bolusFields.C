@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 the bolusFoam developers
+
+#include "bolusFields.H"
+#include "pointMesh.H"
+
+namespace Foam
+{
+
+//- A field that is read if it is there, at its value without load otherwise
+template<class Type>
+static GeometricField<Type, fvPatchField, volMesh> field
+(
+    const fvMesh& mesh,
+    const word& name,
+    const dimensioned<Type>& value
+)
+{
+    return GeometricField<Type, fvPatchField, volMesh>
+    (
+        IOobject
+        (
+            name,
+            mesh.time().timeName(),
+            mesh,
+            IOobject::READ_IF_PRESENT,
+            IOobject::AUTO_WRITE
+        ),
+        mesh,
+        value,
+        "zeroGradient"
+    );
+}
+
+//- A field of boundary values
+template<class Type>
+static GeometricField<Type, fvPatchField, volMesh> boundaryField
+(
+    const fvMesh& mesh,
+    const word& name,
+    const dimensionSet& dims
+)
+{
+    return GeometricField<Type, fvPatchField, volMesh>
+    (
+        IOobject
+        (
+            name,
+            mesh.time().timeName(),
+            mesh,
+            IOobject::READ_IF_PRESENT,
+            IOobject::AUTO_WRITE
+        ),
+        mesh,
+        dimensioned<Type>(name, dims, Zero),
+        "calculated"
+    );
+}
+
+static IOobject mustRead(const fvMesh& mesh, const word& name)
+{
+    return IOobject
+    (
+        name,
+        mesh.time().timeName(),
+        mesh,
+        IOobject::MUST_READ,
+        IOobject::AUTO_WRITE
+    );
+}
+
+static IOobject transient(const fvMesh& mesh, const word& name)
+{
+    return IOobject
+    (
+        name,
+        mesh.time().timeName(),
+        mesh,
+        IOobject::NO_READ,
+        IOobject::NO_WRITE
+    );
+}
+
+} // End namespace Foam
+
+
+Foam::bolusFields::bolusFields
+(
+    const fvMesh& mesh,
+    const elastoViscoPlastic& law
+)
+:
+    mesh_(mesh),
+    law_(law),
+    alpha(mustRead(mesh, "alpha"), mesh),
+    U(mustRead(mesh, "U"), mesh),
+    p(field<scalar>(mesh, "p", dimensionedScalar("p", dimPressure, 0.0))),
+    mass(field<scalar>(mesh, "mass", dimensionedScalar("m", dimless, -1.0))),
+    deviator
+    (
+        field<symmTensor>
+        (
+            mesh,
+            "deviator",
+            dimensionedSymmTensor("s", dimPressure, Zero)
+        )
+    ),
+    epsilonPEq
+    (
+        field<scalar>
+        (
+            mesh, "epsilonPEq", dimensionedScalar("e", dimless, 0.0)
+        )
+    ),
+    D(field<scalar>(mesh, "D", dimensionedScalar("D", dimless, 0.0))),
+    theta(field<scalar>(mesh, "theta", dimensionedScalar("t", dimless, 1.0))),
+    pointU
+    (
+        IOobject
+        (
+            "pointU",
+            mesh.time().timeName(),
+            mesh,
+            IOobject::READ_IF_PRESENT,
+            IOobject::AUTO_WRITE
+        ),
+        pointMesh::New(mesh),
+        dimensionedVector("U", dimVelocity, Zero)
+    ),
+    stress
+    (
+        field<symmTensor>
+        (
+            mesh,
+            "stress",
+            dimensionedSymmTensor("s", dimPressure, Zero)
+        )
+    ),
+    sigmaEq
+    (
+        field<scalar>
+        (
+            mesh, "sigmaEq", dimensionedScalar("s", dimPressure, 0.0)
+        )
+    ),
+    triaxiality
+    (
+        field<scalar>
+        (
+            mesh, "triaxiality", dimensionedScalar("t", dimless, 0.0)
+        )
+    ),
+    elasticSlip(boundaryField<vector>(mesh, "elasticSlip", dimLength)),
+    wallForce(boundaryField<vector>(mesh, "wallForce", dimForce)),
+    wallPower(boundaryField<scalar>(mesh, "wallPower", dimPower)),
+    phi
+    (
+        transient(mesh, "phi"),
+        mesh,
+        dimensionedScalar("phi", dimVolume/dimTime, 0.0)
+    ),
+    massFlux
+    (
+        transient(mesh, "massFlux"),
+        mesh,
+        dimensionedScalar("massFlux", dimVolume/dimTime, 0.0)
+    ),
+    state{alpha, mass, U, p, deviator, epsilonPEq, D, theta, pointU, elasticSlip}
+{
+    if (min(alpha).value() < -0.01 || max(alpha).value() > 1.1)
+    {
+        FatalErrorInFunction
+            << "field alpha: values from " << min(alpha).value() << " to "
+            << max(alpha).value() << "; valid are 0 (void) to 1 (bolus)"
+            << exit(FatalError);
+    }
+    if (min(mass).value() < 0)
+    {
+        mass = alpha*exp
+        (
+            p/dimensionedScalar("K", dimPressure, law.elastic().K())
+        );
+    }
+    mass.correctBoundaryConditions();
+    derive();
+}
+
+
+void Foam::bolusFields::derive()
+{
+    forAll(alpha, c)
+    {
+        const bool bolus = alpha[c] > 0.5;
+        sigmaEq[c] =
+            bolus ? elastoViscoPlastic::sigmaEq(deviator[c]) : scalar(0);
+        triaxiality[c] =
+            bolus && sigmaEq[c] > SMALL ? -p[c]/sigmaEq[c] : 0;
+    }
+    sigmaEq.correctBoundaryConditions();
+    triaxiality.correctBoundaryConditions();
+    stress.correctBoundaryConditions();
+}
+
+
+Foam::scalar Foam::bolusFields::damage()
+{
+    if (!law_.damage().active()) return 0;
+
+    // Cells half full of void are left out: their pressure is that of a
+    // laminate, not of the material
+    scalar volume = 0;
+    forAll(D, c)
+    {
+        if (alpha[c] < 0.9 || D[c] > 0.5) continue;
+        const scalar q = elastoViscoPlastic::sigmaEq(deviator[c]);
+        if (q < SMALL || !law_.damage().onset(epsilonPEq[c], -p[c]/q)) continue;
+        D[c] = 1;
+        volume += mass[c]*mesh_.V()[c];
+    }
+    D.correctBoundaryConditions();
+    reduce(volume, sumOp<scalar>());
+    return volume;
+}
+
+
+Foam::scalar Foam::bolusFields::totalMass() const
+{
+    return gSum(mass.primitiveField()*mesh_.V().field());
+}
+
+// ************************************************************************* //

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 the bolusFoam developers
+/*---------------------------------------------------------------------------*\
+Application
+    bolusFoam
+
+Description
+    A solid food bolus - elastic, viscoplastic, breaking - in a moving lumen:
+    one-fluid VOF on a dynamic mesh, velocity and pressure solved together.
+
+    A step: the mesh moves; velocity, pressure and stress follow from
+    equilibrium (coupledSystem); bolus and memory move with the velocity
+    (historyTransport); what has met the criterion breaks (damageModel).
+    A step that does not converge is done again, shorter.
+
+Usage
+    \b bolusFoam [-checkTangent]
+
+    constant/bolusProperties (elastoViscoPlastic, voidLaw),
+    constant/dynamicMeshDict, system/fvSolution (coupledSystem,
+    historyTransport), system/controlDict (stepControl), 0/alpha, 0/U
+    (contactWall on walls, zeroGradient on open boundaries).
+
+\*---------------------------------------------------------------------------*/
+
+#include "petscHandles.H"
+#include "argList.H"
+#include "dynamicFvMesh.H"
+#include "bolusFields.H"
+#include "historyTransport.H"
+#include "progress.H"
+#include "stepControl.H"
+#include "voidLaw.H"
+
+using namespace Foam;
+
+int main(int argc, char* argv[])
+{
+    argList::addNote
+    (
+        "Solid bolus in a moving lumen: elastoviscoplastic VOF with damage,"
+        " velocity and pressure coupled"
+    );
+    argList::addBoolOption
+    (
+        "checkTangent",
+        "compare the tangent with finite differences after each step"
+    );
+
+    #include "setRootCase.H"
+    #include "createTime.H"
+    petscSession petsc;
+
+    autoPtr<dynamicFvMesh> meshPtr
+    (
+        dynamicFvMesh::New
+        (
+            IOobject
+            (
+                dynamicFvMesh::defaultRegion,
+                runTime.timeName(),
+                runTime,
+                IOobject::MUST_READ
+            )
+        )
+    );
+    dynamicFvMesh& mesh = meshPtr();
+
+    const IOdictionary properties
+    (
+        IOobject
+        (
+            "bolusProperties",
+            runTime.constant(),
+            mesh,
+            IOobject::MUST_READ,
+            IOobject::NO_WRITE
+        )
+    );
+    const elastoViscoPlastic law(properties);
+    const voidLaw voids(properties.subOrEmptyDict("void"));
+    const dictionary& solver = mesh.solutionDict().subOrEmptyDict("bolus");
+
+    bolusFields fields(mesh, law);
+    coupledSystem system(law, voids, fields.state, solver);
+    historyTransport transport
+    (
+        fields.state,
+        law.elastic().K(),
+        solver.lookupOrDefault<scalar>("inertia", 0) > 0,
+        mesh.solutionDict().subOrEmptyDict("transport")
+    );
+    stepControl control(runTime);
+    progress report(runTime, fields, control);
+
+    Info<< "Starting at t = " << runTime.value() << " s" << nl << endl;
+
+    while (runTime.run())
+    {
+        control.start();
+
+        mesh.update();
+        coupledSystem::report solved = system.solve(runTime.deltaTValue());
+
+        while (!solved.converged)
+        {
+            Info<< "t " << runTime.value() << " s, dt "
+                << runTime.deltaTValue() << " s: not converged ("
+                << solved.reason << ", stress imbalance "
+                << solved.momentum << ", volume rate " << solved.continuity
+                << ", worst at " << solved.worst << "): shorter step" << endl;
+
+            if (!control.retry())
+            {
+                FatalErrorInFunction
+                    << "no convergence at t = " << runTime.value()
+                    << " s with the smallest step allowed (minDeltaT "
+                    << control.minDeltaT() << " s): " << solved.reason
+                    << ", worst at " << solved.worst
+                    << " m. The last written time is kept; continue from it"
+                    << " with other settings" << exit(FatalError);
+            }
+            mesh.update();
+            solved = system.solve(runTime.deltaTValue());
+        }
+
+        if (args.found("checkTangent"))
+        {
+            Info<< "Tangent against finite differences: "
+                << system.checkTangent(runTime.deltaTValue()) << endl;
+        }
+
+        system.accept
+        (
+            fields.phi, fields.stress, fields.wallForce, fields.wallPower
+        );
+        const historyTransport::report moved = transport.advance
+        (
+            fields.phi, runTime.deltaTValue(), fields.massFlux
+        );
+        fields.damage();
+        fields.derive();
+
+        control.done(solved.iterations, moved.courant);
+        report.step(solved, moved.courant, moved.subSteps);
+
+        if (control.write()) runTime.writeNow();
+    }
+
+    report.summary();
+    Info<< "End" << nl << endl;
+
+    return 0;
+}
+
+// ************************************************************************* //

@@ -1,0 +1,480 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 the bolusFoam developers
+
+#include "coupledSystem.H"
+#include "contactWallFvPatchVectorField.H"
+#include "emptyPolyPatch.H"
+#include "fvcGrad.H"
+#include "processorPolyPatch.H"
+#include "symmetryPlanePolyPatch.H"
+#include "symmetryPolyPatch.H"
+#include "syncTools.H"
+#include "wedgePolyPatch.H"
+
+#include <functional>
+
+constexpr Foam::scalar Foam::coupledSystem::U0_;
+constexpr Foam::scalar Foam::coupledSystem::P0_;
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+Foam::List<Foam::nodalSpace::patchKind>
+Foam::coupledSystem::kinds(const volVectorField& U)
+{
+    const polyBoundaryMesh& bm = U.mesh().boundaryMesh();
+    List<nodalSpace::patchKind> result(bm.size());
+
+    forAll(bm, patchi)
+    {
+        const polyPatch& pp = bm[patchi];
+        const fvPatchVectorField& Up = U.boundaryField()[patchi];
+
+        if
+        (
+            isA<wedgePolyPatch>(pp)
+         || isA<emptyPolyPatch>(pp)
+         || isA<processorPolyPatch>(pp)
+        )
+        {
+            result[patchi] = nodalSpace::SLICE;
+        }
+        else if (isA<symmetryPlanePolyPatch>(pp) || isA<symmetryPolyPatch>(pp))
+        {
+            result[patchi] = nodalSpace::NORMAL;
+        }
+        else if (pp.coupled())
+        {
+            FatalErrorInFunction
+                << "patch " << pp.name() << " of type " << pp.type()
+                << ": valid are wall, patch, symmetry, symmetryPlane, wedge,"
+                << " empty and processor" << exit(FatalError);
+        }
+        else if (isA<contactWallFvPatchVectorField>(Up))
+        {
+            result[patchi] =
+                refCast<const contactWallFvPatchVectorField>(Up)
+               .friction().sticks()
+              ? nodalSpace::FULL
+              : nodalSpace::NORMAL;
+        }
+        else if (Up.type() == "zeroGradient")
+        {
+            result[patchi] = nodalSpace::UNCONSTRAINED;
+        }
+        else
+        {
+            FatalErrorInFunction
+                << "field U, patch " << pp.name() << ": entry type: "
+                << Up.type() << "; valid are contactWall (a wall with or"
+                << " without friction) and zeroGradient (an open boundary)"
+                << exit(FatalError);
+        }
+    }
+    return result;
+}
+
+
+void Foam::coupledSystem::setContact()
+{
+    const polyBoundaryMesh& bm = mesh_.boundaryMesh();
+
+    friction_.setSize(bm.size(), nullptr);
+    separates_.setSize(mesh_.nCells(), false);
+    contactFaces_.setSize(mesh_.nCells());
+    contactPatches_.setSize(mesh_.nCells());
+
+    forAll(bm, patchi)
+    {
+        const fvPatchVectorField& Up = state_.U.boundaryField()[patchi];
+        if (!isA<contactWallFvPatchVectorField>(Up)) continue;
+
+        const contactWallFvPatchVectorField& wall =
+            refCast<const contactWallFvPatchVectorField>(Up);
+        if (!wall.friction().sticks())
+        {
+            friction_[patchi] = &wall.friction();
+        }
+
+        const labelList& cells = bm[patchi].faceCells();
+        forAll(cells, i)
+        {
+            if (wall.separation()) separates_[cells[i]] = true;
+            if (friction_[patchi])
+            {
+                contactFaces_[cells[i]].append(bm[patchi].start() + i);
+                contactPatches_[cells[i]].append(patchi);
+            }
+        }
+    }
+}
+
+
+void Foam::coupledSystem::freeze()
+{
+    const volScalarField& alpha = state_.alpha;
+    const label nCells = mesh_.nCells();
+
+    N_.setSize(nCells);
+    a_.setSize(nCells);
+    phi_.setSize(nCells);
+    overfill_.setSize(nCells);
+    damaged_.setSize(nCells);
+    hourglassEta_.setSize(nCells);
+    pOld_ = state_.p.primitiveField();
+    UOld_ = state_.U.primitiveField();
+
+    const scalar G = law_.elastic().G();
+    const volVectorField gradAlpha(fvc::grad(alpha));
+
+    forAll(alpha, c)
+    {
+        const scalar a = min(max(alpha[c], scalar(0)), scalar(1));
+        a_[c] = a < 1e-6 ? 0 : a;
+        damaged_[c] = state_.D[c] > 0.5;
+        overfill_[c] = 0.5*max(alpha[c] - 1, scalar(0))/overfillTime_;
+
+        const bool atWall =
+            separates_[c] && magSqr(space_.cellWallNormal()[c]) > 0;
+        phi_[c] = (damaged_[c] || atWall) ? 1 : void_.opening(alpha[c]);
+
+        // Interface where alpha varies over the cell by more than a fifth
+        vector n = gradAlpha[c];
+        if (space_.nd() == 2) n -= (n & space_.normal())*space_.normal();
+        const scalar magN = mag(n);
+        const scalar h = space_.cellSize(c, n/max(magN, VSMALL));
+        const scalar sharp = min(magN*h/0.2, scalar(1));
+        const symmTensor interface =
+            magN > SMALL ? sqr(n/magN) : symmTensor(Zero);
+        const symmTensor otherwise =
+            atWall
+          ? sqr(space_.cellWallNormal()[c])
+          : symmTensor((1.0/3.0)*symmTensor::I);
+        N_[c] = sharp*interface + (1 - sharp)*otherwise;
+
+        const scalar eta =
+            a_[c]*max(state_.theta[c], scalar(1e-3))*G*deltaT_
+          + (1 - a_[c])*void_.eta();
+        hourglassEta_[c] = hourglass_*eta;
+    }
+
+    // Pressure smoothing between cells full of bolus
+    beta_.setSize(mesh_.nFaces());
+    smooth_.setSize(mesh_.nFaces());
+    beta_ = 0;
+    smooth_ = 0;
+    if (smoothing_ > 0)
+    {
+        const volVectorField gradP(fvc::grad(state_.p));
+        auto set = [&]
+        (
+            const label facei, const scalar S, const vector& d,
+            const scalar aP, const scalar aN,
+            const scalar etaP, const scalar etaN,
+            const vector& gP, const vector& gN
+        )
+        {
+            if (min(aP, aN) < 0.9) return;
+            const scalar eta = 2/(1/etaP + 1/etaN);
+            beta_[facei] = smoothing_*S*mag(d)/(2*eta);
+            smooth_[facei] = -0.5*((gP + gN) & d);
+        };
+
+        const volScalarField eta
+        (
+            max(state_.theta, dimensionedScalar("t", dimless, 1e-3))*G*deltaT_
+        );
+        const surfaceScalarField& magSf = mesh_.magSf();
+        const volVectorField& C = mesh_.C();
+        for (label f = 0; f < mesh_.nInternalFaces(); ++f)
+        {
+            const label P = mesh_.faceOwner()[f];
+            const label N = mesh_.faceNeighbour()[f];
+            set
+            (
+                f, magSf[f], C[N] - C[P], alpha[P], alpha[N],
+                eta[P], eta[N], gradP[P], gradP[N]
+            );
+        }
+        forAll(mesh_.boundary(), patchi)
+        {
+            const fvPatch& patch = mesh_.boundary()[patchi];
+            if (!patch.coupled()) continue;
+            const vectorField d(patch.delta());
+            const scalarField aN
+            (
+                alpha.boundaryField()[patchi].patchNeighbourField()
+            );
+            const scalarField etaN
+            (
+                eta.boundaryField()[patchi].patchNeighbourField()
+            );
+            const vectorField gN
+            (
+                gradP.boundaryField()[patchi].patchNeighbourField()
+            );
+            forAll(patch, i)
+            {
+                const label P = patch.faceCells()[i];
+                set
+                (
+                    patch.start() + i, patch.magSf()[i], d[i], alpha[P], aN[i],
+                    eta[P], etaN[i], gradP[P], gN[i]
+                );
+            }
+        }
+    }
+}
+
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::coupledSystem::coupledSystem
+(
+    const elastoViscoPlastic& law,
+    const voidLaw& voids,
+    bolusState& state,
+    const dictionary& dict
+)
+:
+    mesh_(state.alpha.mesh()),
+    law_(law),
+    void_(voids),
+    state_(state),
+    tolerance_(dict.lookupOrDefault<scalar>("tolerance", 1e-6)),
+    maxIterations_(dict.lookupOrDefault<label>("maxIterations", 25)),
+    hourglass_(dict.lookupOrDefault<scalar>("hourglass", 0.05)),
+    smoothing_(dict.lookupOrDefault<scalar>("pressureSmoothing", 0.01)),
+    overfillTime_(dict.lookupOrDefault<scalar>("overfillTime", 0.02)),
+    inertia_(dict.lookupOrDefault<scalar>("inertia", 0)),
+    space_(mesh_, kinds(state.U)),
+    elasticSlip_(state.elasticSlip),
+    deltaT_(1),
+    q_(space_.nd()*space_.nNodes(), Zero),
+    pCell_(mesh_.nCells(), Zero),
+    pNeighbour_(mesh_.nFaces() - mesh_.nInternalFaces(), Zero)
+{
+    auto notNegative = [&](const word& name, const scalar v)
+    {
+        if (!(v >= 0))
+        {
+            FatalIOErrorInFunction(dict)
+                << "entry " << name << ": " << v
+                << "; valid are numbers >= 0" << exit(FatalIOError);
+        }
+    };
+    notNegative("hourglass", hourglass_);
+    notNegative("pressureSmoothing", smoothing_);
+    notNegative("inertia", inertia_);
+    if (!(tolerance_ > 0) || !(overfillTime_ > 0) || maxIterations_ < 1)
+    {
+        FatalIOErrorInFunction(dict)
+            << "entries tolerance: " << tolerance_ << ", overfillTime: "
+            << overfillTime_ << ", maxIterations: " << maxIterations_
+            << "; valid are numbers > 0" << exit(FatalIOError);
+    }
+
+    setContact();
+    setPetsc(dict);
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+void Foam::coupledSystem::accept
+(
+    surfaceScalarField& phi,
+    volSymmTensorField& stress,
+    volVectorField& wallForce,
+    volScalarField& wallPower
+)
+{
+    gather(x_);
+
+    vectorField& v = state_.pointU.primitiveFieldRef();
+    space_.toPoints(q_, v);
+    space_.flux(v, phi);
+
+    // Flux of the pressure smoothing
+    forAll(beta_, facei)
+    {
+        if (beta_[facei] == 0) continue;
+        const label P = mesh_.faceOwner()[facei];
+        if (facei < mesh_.nInternalFaces())
+        {
+            phi[facei] +=
+                beta_[facei]
+               *(pCell_[P] - pCell_[mesh_.faceNeighbour()[facei]]
+               - smooth_[facei]);
+        }
+        else
+        {
+            const label patchi = mesh_.boundaryMesh().whichPatch(facei);
+            const label i = facei - mesh_.boundaryMesh()[patchi].start();
+            phi.boundaryFieldRef()[patchi][i] +=
+                beta_[facei]
+               *(pCell_[P] - pNeighbour_[facei - mesh_.nInternalFaces()]
+               - smooth_[facei]);
+        }
+    }
+
+    // Forces of the cells on their nodes, which walls must hold; a second
+    // time without the pressure on the wall faces, as in the momentum rows
+    scalarField force(q_.size(), Zero);
+    scalarField rowForce(q_.size(), Zero);
+    scalarField pressure(mesh_.nCells());
+    DynamicList<scalar> R;
+
+    forAll(pCell_, c)
+    {
+        cellResult r;
+        evaluate(c, r);
+        internalForce(c, r, R);
+        forAll(R, i)
+        {
+            const label j = space_.cellStart()[c] + i;
+            const label dof = space_.cellDofs()[j];
+            rowForce[dof] += R[i];
+            force[dof] +=
+                R[i] + r.P*(space_.V()[c]*tr(space_.G()[j]) - space_.h()[j]);
+        }
+        pressure[c] = r.P;
+
+        forAll(contactFaces_[c], fi)
+        {
+            const label patchi = contactPatches_[c][fi];
+            const label i =
+                contactFaces_[c][fi] - mesh_.boundaryMesh()[patchi].start();
+            contact k;
+            elasticSlip_.boundaryFieldRef()[patchi][i] =
+                evaluateContact(c, fi, r, k)
+              ? k.law->retained(mag(k.slip))*k.slip
+              : vector(Zero);
+        }
+
+        stress[c] = r.dev + r.P*symmTensor::I;
+
+        const labelList& pts = mesh_.cellPoints()[c];
+        vector U = Zero;
+        for (const label p : pts) U += v[p];
+        U /= pts.size();
+        if (space_.wedge())
+        {
+            // The mean over the two sides has lost the cosine of the radius
+            const vector& e2 = space_.radial();
+            U += (1/std::cos(0.5*space_.wedgeAngle()) - 1)*(U & e2)*e2;
+        }
+        state_.U[c] = U;
+
+        const bool bolus = a_[c] > 0;
+        state_.deviator[c] = bolus ? r.r.s : symmTensor(Zero);
+        state_.theta[c] = bolus ? r.r.theta : 1;
+        if (bolus) state_.epsilonPEq[c] = r.r.epsP;
+        state_.p[c] = pCell_[c];
+    }
+    state_.U.correctBoundaryConditions();
+    state_.p.correctBoundaryConditions();
+
+    wallForce.primitiveFieldRef() = Zero;
+    wallPower.primitiveFieldRef() = 0;
+    forAll(mesh_.boundary(), patchi)
+    {
+        const labelList& cells = mesh_.boundary()[patchi].faceCells();
+        fvPatchVectorField& F = wallForce.boundaryFieldRef()[patchi];
+        fvPatchScalarField& P = wallPower.boundaryFieldRef()[patchi];
+        F == vectorField(F.size(), Zero);
+        P == scalarField(P.size(), Zero);
+
+        // Power of the wall pressure: the wall sweeps the cell's volume
+        if (!isA<contactWallFvPatchVectorField>(state_.U.boundaryField()[patchi])
+         || !mesh_.moving()) continue;
+        scalarField power(P.size());
+        forAll(power, i)
+        {
+            power[i] =
+                pressure[cells[i]]*mesh_.phi().boundaryField()[patchi][i];
+        }
+        P == power;
+    }
+    wallForces(force, rowForce, wallForce, wallPower);
+}
+
+
+void Foam::coupledSystem::wallForces
+(
+    const scalarField& force,
+    const scalarField& rowForce,
+    volVectorField& wallForce,
+    volScalarField& wallPower
+) const
+{
+    const label nd = space_.nd();
+    const label nPoints = mesh_.nPoints();
+
+    // Vectors at the points, in the frame of the node
+    vectorField F(nPoints, Zero);
+    scalarField W(nPoints, Zero);
+    scalarField weight(nPoints, Zero);
+    forAll(F, p)
+    {
+        const label node = space_.pointNode()[p];
+        for (label k = 0; k < nd; ++k)
+        {
+            const vector& e = space_.basis()[node][k];
+            F[p] += force[nd*node + k]*e;
+            W[p] += rowForce[nd*node + k]*space_.fixedValue(node, k);
+        }
+    }
+
+    auto forWallPoints = [&](std::function<void(label, label, label)> f)
+    {
+        forAll(mesh_.boundary(), patchi)
+        {
+            if
+            (
+                !isA<contactWallFvPatchVectorField>
+                (
+                    state_.U.boundaryField()[patchi]
+                )
+            ) continue;
+
+            const polyPatch& pp = mesh_.boundaryMesh()[patchi];
+            forAll(pp, i)
+            {
+                forAll(pp[i], fp) f(patchi, i, fp);
+            }
+        }
+    };
+
+    // Weight of a node: that of all its wall faces
+    scalarField nodeWeight(space_.nNodes(), Zero);
+    forWallPoints
+    (
+        [&](label patchi, label i, label fp)
+        {
+            const label facei = mesh_.boundaryMesh()[patchi].start() + i;
+            const label p = mesh_.faces()[facei][fp];
+            nodeWeight[space_.pointNode()[p]] +=
+                mag(space_.faceWeight(facei, fp));
+        }
+    );
+    forAll(weight, p) weight[p] = nodeWeight[space_.pointNode()[p]];
+
+    syncTools::syncPointList(mesh_, F, plusEqOp<vector>(), vector(Zero));
+    syncTools::syncPointList(mesh_, W, plusEqOp<scalar>(), scalar(0));
+    syncTools::syncPointList(mesh_, weight, plusEqOp<scalar>(), scalar(0));
+
+    forWallPoints
+    (
+        [&](label patchi, label i, label fp)
+        {
+            const label facei = mesh_.boundaryMesh()[patchi].start() + i;
+            const label p = mesh_.faces()[facei][fp];
+            const scalar part =
+                mag(space_.faceWeight(facei, fp))/max(weight[p], VSMALL);
+            wallForce.boundaryFieldRef()[patchi][i] -= part*F[p];
+            wallPower.boundaryFieldRef()[patchi][i] += part*W[p];
+        }
+    );
+}
+
+// ************************************************************************* //

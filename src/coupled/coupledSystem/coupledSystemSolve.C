@@ -1,0 +1,563 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 the bolusFoam developers
+
+#include "coupledSystem.H"
+#include "syncTools.H"
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+void Foam::coupledSystem::setPetsc(const dictionary& dict)
+{
+    const label nRows = space_.nRowsOwned();
+
+    string options
+    (
+        "-bolus_snes_type newtonls"
+        " -bolus_ksp_type preonly -bolus_pc_type lu"
+        " -bolus_pc_factor_mat_solver_type mumps"
+        " -bolus_mat_mumps_icntl_14 80 "
+    );
+    options += dict.lookupOrDefault<string>("petscOptions", "");
+    petscCheck
+    (
+        PetscOptionsInsertString(nullptr, options.c_str()),
+        "petscOptions"
+    );
+
+    VecCreateMPI(PETSC_COMM_WORLD, nRows, PETSC_DETERMINE, x_.set());
+    VecSetOption(x_, VEC_IGNORE_NEGATIVE_INDICES, PETSC_TRUE);
+    VecDuplicate(x_, f_.set());
+
+    // Local order: node components, cells, cells beyond processor faces
+    DynamicList<PetscInt> rows;
+    forAll(space_.nodeRow(), n)
+    {
+        for (label k = 0; k < space_.nd(); ++k)
+        {
+            rows.append(space_.nodeRow()[n] + k);
+        }
+    }
+    for (const label r : space_.cellRow()) rows.append(r);
+
+    syncTools::swapBoundaryCellList(mesh_, space_.cellRow(), neighbourRow_);
+    for (const polyPatch& pp : mesh_.boundaryMesh())
+    {
+        forAll(pp, i)
+        {
+            label& r = neighbourRow_[pp.start() - mesh_.nInternalFaces() + i];
+            if (!pp.coupled()) r = -1;
+            // Any row will do where there is no neighbour
+            rows.append(r < 0 ? rows[0] : r);
+        }
+    }
+
+    petscIS from;
+    ISCreateGeneral
+    (
+        PETSC_COMM_SELF, rows.size(), rows.cdata(), PETSC_COPY_VALUES,
+        from.set()
+    );
+    VecCreateSeq(PETSC_COMM_SELF, rows.size(), local_.set());
+    VecScatterCreate(x_, from, local_, nullptr, scatter_.set());
+
+    preallocate();
+
+    SNESCreate(PETSC_COMM_WORLD, snes_.set());
+    SNESSetOptionsPrefix(snes_, "bolus_");
+    SNESSetFunction(snes_, f_, residualFunction, this);
+    SNESSetJacobian(snes_, J_, J_, jacobianFunction, this);
+    SNESSetConvergenceTest(snes_, convergedFunction, this, nullptr);
+    SNESSetTolerances(snes_, 0, 0, 1e-12, maxIterations_, 10000);
+
+    SNESLineSearch search;
+    SNESGetLineSearch(snes_, &search);
+    SNESLineSearchSetType(search, SNESLINESEARCHSHELL);
+    SNESLineSearchShellSetUserFunc(search, lineSearch, this);
+
+    petscCheck(SNESSetFromOptions(snes_), "petscOptions of fvSolution");
+}
+
+
+void Foam::coupledSystem::preallocate()
+{
+    const label nRows = space_.nRowsOwned();
+    const label nd = space_.nd();
+
+    petscMat pattern;
+    MatCreate(PETSC_COMM_WORLD, pattern.set());
+    MatSetType(pattern, MATPREALLOCATOR);
+    MatSetSizes
+    (
+        pattern, nRows, nRows, PETSC_DETERMINE, PETSC_DETERMINE
+    );
+    MatSetUp(pattern);
+
+    DynamicList<PetscInt> rows;
+    auto insert = [&]()
+    {
+        const scalarField zeros(rows.size()*rows.size(), 0.0);
+        MatSetValues
+        (
+            pattern, rows.size(), rows.cdata(), rows.size(), rows.cdata(),
+            zeros.cdata(), ADD_VALUES
+        );
+    };
+
+    forAll(space_.cellRow(), c)
+    {
+        rows.clear();
+        for
+        (
+            label i = space_.cellStart()[c];
+            i < space_.cellStart()[c + 1];
+            ++i
+        )
+        {
+            const label dof = space_.cellDofs()[i];
+            rows.append(space_.nodeRow()[dof/nd] + dof % nd);
+        }
+        rows.append(space_.cellRow()[c]);
+        insert();
+    }
+    forAll(mesh_.faceOwner(), facei)
+    {
+        const label other =
+            facei < mesh_.nInternalFaces()
+          ? space_.cellRow()[mesh_.faceNeighbour()[facei]]
+          : neighbourRow_[facei - mesh_.nInternalFaces()];
+        if (other < 0) continue;
+        rows.clear();
+        rows.append(space_.cellRow()[mesh_.faceOwner()[facei]]);
+        rows.append(other);
+        insert();
+    }
+    MatAssemblyBegin(pattern, MAT_FINAL_ASSEMBLY);
+    MatAssemblyEnd(pattern, MAT_FINAL_ASSEMBLY);
+
+    MatCreate(PETSC_COMM_WORLD, J_.set());
+    MatSetType(J_, MATAIJ);
+    MatSetSizes(J_, nRows, nRows, PETSC_DETERMINE, PETSC_DETERMINE);
+    MatPreallocatorPreallocate(pattern, PETSC_TRUE, J_);
+    MatSetOption(J_, MAT_NEW_NONZERO_ALLOCATION_ERR, PETSC_TRUE);
+}
+
+
+void Foam::coupledSystem::gather(Vec x)
+{
+    VecScatterBegin(scatter_, x, local_, INSERT_VALUES, SCATTER_FORWARD);
+    VecScatterEnd(scatter_, x, local_, INSERT_VALUES, SCATTER_FORWARD);
+
+    const PetscScalar* v;
+    VecGetArrayRead(local_, &v);
+    label i = 0;
+    forAll(q_, j) q_[j] = U0_*v[i++];
+    forAll(pCell_, c) pCell_[c] = P0_*v[i++];
+    forAll(pNeighbour_, f) pNeighbour_[f] = P0_*v[i++];
+    VecRestoreArrayRead(local_, &v);
+}
+
+
+void Foam::coupledSystem::assemble(Vec f, Mat* J) const
+{
+    const label nd = space_.nd();
+
+    if (f) VecSet(f, 0);
+    if (J) MatZeroEntries(*J);
+
+    DynamicList<scalar> R;
+    scalarField Jc;
+    DynamicList<PetscInt> cols;
+    DynamicList<PetscInt> rows;
+    DynamicList<scalar> rowScale;
+
+    forAll(pCell_, c)
+    {
+        assembleCell(c, R, J ? &Jc : nullptr);
+
+        // Scaled rows; those of fixed components are negative: left out
+        const label n = R.size() - 1;
+        cols.clear();
+        rows.clear();
+        rowScale.clear();
+        for (label i = 0; i < n; ++i)
+        {
+            const label dof = space_.cellDofs()[space_.cellStart()[c] + i];
+            const label node = dof/nd;
+            cols.append(space_.nodeRow()[node] + dof % nd);
+            rows.append
+            (
+                dof % nd < space_.nFixed()[node] ? -1 : cols.last()
+            );
+            rowScale.append(1/(P0_*space_.nodeArea()[node]));
+        }
+        cols.append(space_.cellRow()[c]);
+        rows.append(cols.last());
+        rowScale.append(1);
+
+        if (f)
+        {
+            for (label i = 0; i <= n; ++i) R[i] *= rowScale[i];
+            VecSetValues(f, n + 1, rows.cdata(), R.cdata(), ADD_VALUES);
+        }
+        if (J)
+        {
+            for (label i = 0; i <= n; ++i)
+            {
+                for (label j = 0; j <= n; ++j)
+                {
+                    Jc[i*(n + 1) + j] *= rowScale[i]*(j < n ? U0_ : P0_);
+                }
+            }
+            MatSetValues
+            (
+                *J, n + 1, rows.cdata(), n + 1, cols.cdata(), Jc.cdata(),
+                ADD_VALUES
+            );
+        }
+    }
+
+    // Pressure smoothing
+    const labelList& own = mesh_.faceOwner();
+    forAll(beta_, facei)
+    {
+        if (beta_[facei] == 0) continue;
+
+        const bool internal = facei < mesh_.nInternalFaces();
+        const label P = own[facei];
+        const label N = internal ? mesh_.faceNeighbour()[facei] : -1;
+        const scalar pN =
+            internal
+          ? pCell_[N]
+          : pNeighbour_[facei - mesh_.nInternalFaces()];
+        const scalar flux = beta_[facei]*(pCell_[P] - pN - smooth_[facei]);
+
+        const PetscInt rows[2] =
+        {
+            space_.cellRow()[P],
+            internal ? space_.cellRow()[N] : -1
+        };
+        const PetscInt cols[2] =
+        {
+            rows[0],
+            internal
+          ? rows[1]
+          : neighbourRow_[facei - mesh_.nInternalFaces()]
+        };
+        const scalar sP = 1/space_.V()[P];
+        const scalar sN = internal ? 1/space_.V()[N] : 0;
+        if (f)
+        {
+            const scalar v[2] = {flux*sP, -flux*sN};
+            VecSetValues(f, 2, rows, v, ADD_VALUES);
+        }
+        if (J)
+        {
+            const scalar b = beta_[facei]*P0_;
+            const scalar v[4] = {b*sP, -b*sP, -b*sN, b*sN};
+            MatSetValues(*J, 2, rows, 2, cols, v, ADD_VALUES);
+        }
+    }
+
+    // Fixed components
+    for (const label node : space_.ownedNodes())
+    {
+        for (label k = 0; k < space_.nFixed()[node]; ++k)
+        {
+            const PetscInt row = space_.nodeRow()[node] + k;
+            if (f)
+            {
+                const scalar v =
+                    (q_[nd*node + k] - space_.fixedValue(node, k))/U0_;
+                VecSetValues(f, 1, &row, &v, ADD_VALUES);
+            }
+            if (J)
+            {
+                const scalar one = 1;
+                MatSetValues(*J, 1, &row, 1, &row, &one, ADD_VALUES);
+            }
+        }
+    }
+
+    if (f)
+    {
+        VecAssemblyBegin(f);
+        VecAssemblyEnd(f);
+    }
+    if (J)
+    {
+        MatAssemblyBegin(*J, MAT_FINAL_ASSEMBLY);
+        MatAssemblyEnd(*J, MAT_FINAL_ASSEMBLY);
+    }
+}
+
+
+void Foam::coupledSystem::computeNorms(Vec f)
+{
+    const label nNode = space_.nd()*space_.ownedNodes().size();
+
+    const PetscScalar* v;
+    VecGetArrayRead(f, &v);
+    scalar m2 = 0;
+    scalar c2 = 0;
+    scalar largest = -1;
+    label where = -1;
+    for (label i = 0; i < space_.nRowsOwned(); ++i)
+    {
+        (i < nNode ? m2 : c2) += sqr(v[i]);
+        if (mag(v[i]) > largest)
+        {
+            largest = mag(v[i]);
+            where = i;
+        }
+    }
+    VecRestoreArrayRead(f, &v);
+
+    label n = nNode;
+    label nc = mesh_.nCells();
+    reduce(m2, sumOp<scalar>());
+    reduce(c2, sumOp<scalar>());
+    reduce(n, sumOp<label>());
+    reduce(nc, sumOp<label>());
+    report_.momentum = std::sqrt(m2/max(n, 1));
+    report_.continuity = std::sqrt(c2/max(nc, 1));
+
+    Tuple2<scalar, point> worst(largest, point::zero);
+    if (where >= nNode)
+    {
+        worst.second() = mesh_.C()[where - nNode];
+    }
+    else if (where >= 0)
+    {
+        const label node = space_.ownedNodes()[where/space_.nd()];
+        worst.second() = mesh_.points()[space_.pointNode().find(node)];
+    }
+    combineReduce
+    (
+        worst,
+        [](Tuple2<scalar, point>& a, const Tuple2<scalar, point>& b)
+        {
+            if (b.first() > a.first()) a = b;
+        }
+    );
+    report_.worst = worst.second();
+}
+
+
+PetscErrorCode Foam::coupledSystem::residualFunction
+(
+    SNES, Vec x, Vec f, void* ctx
+)
+{
+    coupledSystem& system = *static_cast<coupledSystem*>(ctx);
+    system.gather(x);
+    system.assemble(f, nullptr);
+    return 0;
+}
+
+
+PetscErrorCode Foam::coupledSystem::jacobianFunction
+(
+    SNES, Vec x, Mat, Mat J, void* ctx
+)
+{
+    coupledSystem& system = *static_cast<coupledSystem*>(ctx);
+    system.gather(x);
+    system.assemble(nullptr, &J);
+    system.qLast_ = system.q_;
+    return 0;
+}
+
+
+Foam::scalar Foam::coupledSystem::merit(Vec f) const
+{
+    const label nNode = space_.nd()*space_.ownedNodes().size();
+    const PetscScalar* v;
+    VecGetArrayRead(f, &v);
+    scalar sum = 0;
+    for (label i = 0; i < nNode; ++i) sum += sqr(v[i]);
+    forAll(phi_, c)
+    {
+        // Where a void may open, its rate is a measure of the pressure
+        const scalar w = min(void_.zeta()/(max(phi_[c], SMALL)*P0_), scalar(1));
+        sum += sqr(w*v[nNode + c]);
+    }
+    VecRestoreArrayRead(f, &v);
+    return std::sqrt(returnReduce(sum, sumOp<scalar>()));
+}
+
+
+PetscErrorCode Foam::coupledSystem::lineSearch
+(
+    SNESLineSearch search, void* ctx
+)
+{
+    coupledSystem& system = *static_cast<coupledSystem*>(ctx);
+
+    Vec X, F, Y, W, G;
+    SNESLineSearchGetVecs(search, &X, &F, &Y, &W, &G);
+    SNES snes;
+    SNESLineSearchGetSNES(search, &snes);
+
+    // PETSc: x - lambda y
+    const scalar old = system.merit(F);
+    scalar best = GREAT;
+    for (const scalar n : system.lastNorms_) best = min(best, n);
+    const label n = system.lastNorms_.size();
+    const scalar bound = n < 2 ? GREAT : min(4*old, 20*best);
+    system.lastNorms_.append(old);
+
+    // A shorter step now and then breaks cycles
+    PetscReal lambda = n > 8 && n % 3 == 0 ? 0.5 : 1;
+    for (label i = 0; ; ++i)
+    {
+        VecWAXPY(W, -lambda, Y, X);
+        SNESComputeFunction(snes, W, G);
+        if (system.merit(G) < bound || i == 5) break;
+        lambda *= 0.5;
+    }
+    PetscReal norm;
+    VecNorm(G, NORM_2, &norm);
+    VecCopy(W, X);
+    VecCopy(G, F);
+
+    PetscReal xNorm, yNorm;
+    VecNorm(X, NORM_2, &xNorm);
+    VecNorm(Y, NORM_2, &yNorm);
+    SNESLineSearchSetNorms(search, xNorm, norm, yNorm);
+    SNESLineSearchSetLambda(search, lambda);
+    SNESLineSearchSetReason
+    (
+        search,
+        norm < GREAT
+      ? SNES_LINESEARCH_SUCCEEDED
+      : SNES_LINESEARCH_FAILED_NANORINF
+    );
+    return 0;
+}
+
+
+PetscErrorCode Foam::coupledSystem::convergedFunction
+(
+    SNES snes, PetscInt it, PetscReal, PetscReal, PetscReal,
+    SNESConvergedReason* reason, void* ctx
+)
+{
+    coupledSystem& system = *static_cast<coupledSystem*>(ctx);
+    Vec f;
+    SNESGetFunction(snes, &f, nullptr, nullptr);
+    system.computeNorms(f);
+
+    const report& r = system.report_;
+    *reason = SNES_CONVERGED_ITERATING;
+    if (!(r.momentum < GREAT) || !(r.continuity < GREAT))
+    {
+        *reason = SNES_DIVERGED_FNORM_NAN;
+    }
+    else if (max(r.momentum, r.continuity) < system.tolerance_)
+    {
+        *reason = SNES_CONVERGED_FNORM_ABS;
+    }
+    else if (it >= system.maxIterations_)
+    {
+        *reason = SNES_DIVERGED_MAX_IT;
+    }
+    return 0;
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+const Foam::coupledSystem::report& Foam::coupledSystem::solve
+(
+    const scalar deltaT
+)
+{
+    deltaT_ = deltaT;
+    space_.update(deltaT);
+    freeze();
+
+    // Start from the last velocity, fixed components at their new values
+    space_.fromPoints(state_.pointU.primitiveField(), q_);
+    const label nd = space_.nd();
+    PetscScalar* v;
+    VecGetArray(x_, &v);
+    label i = 0;
+    for (const label node : space_.ownedNodes())
+    {
+        for (label k = 0; k < nd; ++k)
+        {
+            v[i++] =
+            (
+                k < space_.nFixed()[node]
+              ? space_.fixedValue(node, k)
+              : q_[nd*node + k]
+            )/U0_;
+        }
+    }
+    forAll(pOld_, c) v[i++] = pOld_[c]/P0_;
+    VecRestoreArray(x_, &v);
+
+    gather(x_);
+    qLast_ = q_;
+    lastNorms_.clear();
+    petscCheck(SNESSolve(snes_, nullptr, x_), "SNESSolve");
+
+    SNESConvergedReason reason;
+    PetscInt iterations;
+    SNESGetConvergedReason(snes_, &reason);
+    SNESGetIterationNumber(snes_, &iterations);
+    report_.converged = reason > 0;
+    report_.iterations = iterations;
+    report_.reason = SNESConvergedReasons[reason];
+    return report_;
+}
+
+
+Foam::scalar Foam::coupledSystem::checkTangent(const scalar deltaT)
+{
+    // At the solution of a step: all mechanisms are then in play
+    solve(deltaT);
+
+    MatAssemblyType final = MAT_FINAL_ASSEMBLY;
+    petscVec x, f0, f1, d, Jd;
+    VecDuplicate(x_, x.set());
+    VecDuplicate(x_, f0.set());
+    VecDuplicate(x_, f1.set());
+    VecDuplicate(x_, d.set());
+    VecDuplicate(x_, Jd.set());
+
+    Mat J = J_;
+    gather(x_);
+    qLast_ = q_;
+    assemble(nullptr, &J);
+    MatAssemblyBegin(J_, final);
+    MatAssemblyEnd(J_, final);
+
+    PetscRandom random;
+    PetscRandomCreate(PETSC_COMM_WORLD, &random);
+    PetscRandomSetInterval(random, -1, 1);
+
+    // Central differences in random directions
+    scalar worst = 0;
+    for (label i = 0; i < 5; ++i)
+    {
+        VecSetRandom(d, random);
+        MatMult(J_, d, Jd);
+        const scalar eps = 1e-7;
+        VecWAXPY(x, eps, d, x_);
+        residualFunction(snes_, x, f1, this);
+        VecWAXPY(x, -eps, d, x_);
+        residualFunction(snes_, x, f0, this);
+        VecAXPY(f1, -1, f0);
+        VecScale(f1, 1/(2*eps));
+        PetscReal norm, difference;
+        VecNorm(Jd, NORM_2, &norm);
+        VecAXPY(f1, -1, Jd);
+        VecNorm(f1, NORM_2, &difference);
+        worst = max(worst, scalar(difference/norm));
+    }
+    PetscRandomDestroy(&random);
+    return worst;
+}
+
+// ************************************************************************* //

@@ -1,0 +1,444 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 the bolusFoam developers
+
+#include "historyTransport.H"
+#include "leastSquaresVectors.H"
+#include "syncTools.H"
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+void Foam::historyTransport::pack()
+{
+    q_.setSize(9 + (inertia_ ? 3 : 0));
+    q_[0] = state_.p.primitiveField();
+    q_[1] = state_.epsilonPEq.primitiveField();
+    q_[2] = state_.D.primitiveField();
+    for (direction d = 0; d < 6; ++d)
+    {
+        q_[3 + d] = state_.deviator.primitiveField().component(d);
+    }
+    if (inertia_)
+    {
+        for (direction d = 0; d < 3; ++d)
+        {
+            q_[9 + d] = state_.U.primitiveField().component(d);
+        }
+    }
+}
+
+
+void Foam::historyTransport::unpack()
+{
+    state_.p.primitiveFieldRef() = q_[0];
+    state_.epsilonPEq.primitiveFieldRef() = q_[1];
+    state_.D.primitiveFieldRef() = q_[2];
+    for (direction d = 0; d < 6; ++d)
+    {
+        state_.deviator.primitiveFieldRef().replace(d, q_[3 + d]);
+    }
+    if (inertia_)
+    {
+        for (direction d = 0; d < 3; ++d)
+        {
+            state_.U.primitiveFieldRef().replace(d, q_[9 + d]);
+        }
+    }
+    state_.p.correctBoundaryConditions();
+    state_.epsilonPEq.correctBoundaryConditions();
+    state_.D.correctBoundaryConditions();
+    state_.deviator.correctBoundaryConditions();
+}
+
+
+Foam::scalarField Foam::historyTransport::neighbour
+(
+    const scalarField& cells
+) const
+{
+    scalarList beyond;
+    syncTools::swapBoundaryCellList(mesh_, cells, beyond);
+    return scalarField(std::move(beyond));
+}
+
+
+void Foam::historyTransport::gradient
+(
+    const scalarField& q,
+    const scalarField& qNei,
+    const boolList& use,
+    vectorField& g
+) const
+{
+    const leastSquaresVectors& ls = leastSquaresVectors::New(mesh_);
+    const surfaceVectorField& pVec = ls.pVectors();
+    const surfaceVectorField& nVec = ls.nVectors();
+    const labelUList& own = mesh_.owner();
+    const labelUList& nei = mesh_.neighbour();
+
+    g = vector(Zero);
+    forAll(nei, f)
+    {
+        if (!use[f]) continue;
+        const scalar d = q[nei[f]] - q[own[f]];
+        g[own[f]] += d*pVec[f];
+        g[nei[f]] -= d*nVec[f];
+    }
+    forAll(mesh_.boundary(), patchi)
+    {
+        const fvPatch& patch = mesh_.boundary()[patchi];
+        if (!patch.coupled()) continue;
+        forAll(patch, i)
+        {
+            const label f = patch.start() + i;
+            if (!use[f]) continue;
+            const label c = patch.faceCells()[i];
+            g[c] +=
+                (qNei[f - mesh_.nInternalFaces()] - q[c])
+               *pVec.boundaryField()[patchi][i];
+        }
+    }
+}
+
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::historyTransport::historyTransport
+(
+    bolusState& state,
+    const scalar bulkModulus,
+    const bool inertia,
+    const dictionary& dict
+)
+:
+    mesh_(state.alpha.mesh()),
+    state_(state),
+    K_(bulkModulus),
+    inertia_(inertia),
+    maxCourant_(dict.lookupOrDefault<scalar>("maxCourant", 0.3)),
+    maxSubSteps_(dict.lookupOrDefault<label>("maxSubSteps", 1000))
+{
+    if (!(maxCourant_ > 0) || maxCourant_ > 0.5)
+    {
+        FatalIOErrorInFunction(dict)
+            << "entry maxCourant: " << maxCourant_
+            << "; valid are numbers > 0 and <= 0.5" << exit(FatalIOError);
+    }
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+Foam::scalar Foam::historyTransport::courant
+(
+    const surfaceScalarField& phiRel,
+    const scalar dt
+) const
+{
+    scalarField out(mesh_.nCells(), Zero);
+    forAll(mesh_.neighbour(), f)
+    {
+        const scalar phi = phiRel[f];
+        out[phi > 0 ? mesh_.owner()[f] : mesh_.neighbour()[f]] += mag(phi);
+    }
+    forAll(mesh_.boundary(), patchi)
+    {
+        const fvPatch& patch = mesh_.boundary()[patchi];
+        forAll(phiRel.boundaryField()[patchi], i)
+        {
+            const scalar phi = phiRel.boundaryField()[patchi][i];
+            if (phi > 0) out[patch.faceCells()[i]] += phi;
+        }
+    }
+
+    const scalarField& V = mesh_.V();
+    scalar largest = 0;
+    forAll(out, c)
+    {
+        if (state_.mass[c] < 1e-9) continue;
+        const scalar Vmin = mesh_.moving() ? min(V[c], mesh_.V0()[c]) : V[c];
+        largest = max(largest, out[c]*dt/Vmin);
+    }
+    reduce(largest, maxOp<scalar>());
+    return largest;
+}
+
+
+Foam::historyTransport::report Foam::historyTransport::advance
+(
+    const surfaceScalarField& phi,
+    const scalar deltaT,
+    surfaceScalarField& massFlux
+)
+{
+    surfaceScalarField phiRel("phiRel", phi);
+    if (mesh_.moving()) phiRel -= mesh_.phi();
+
+    report result;
+    result.courant = courant(phiRel, deltaT);
+    result.subSteps = max(label(std::ceil(result.courant/maxCourant_)), 1);
+    if (result.subSteps > maxSubSteps_)
+    {
+        WarningInFunction
+            << "the flow would need " << result.subSteps << " sub-steps; "
+            << maxSubSteps_ << " (entry maxSubSteps) are taken" << endl;
+        result.subSteps = maxSubSteps_;
+    }
+    const scalar dt = deltaT/result.subSteps;
+
+    const label nCells = mesh_.nCells();
+    const label nInternal = mesh_.nInternalFaces();
+    const label nFaces = mesh_.nFaces();
+    const labelList& own = mesh_.faceOwner();
+    const scalarField& V1 = mesh_.V();
+    const scalarField V0(mesh_.moving() ? mesh_.V0().field() : V1);
+
+    // Faces in one list; sides of the slice have no flux
+    scalarField flux(nFaces, Zero);
+    boolList coupled(nFaces, false);
+    vectorField delta(nFaces, Zero);
+    const volVectorField& C = mesh_.C();
+    for (label f = 0; f < nInternal; ++f)
+    {
+        flux[f] = phiRel[f];
+        delta[f] = C[mesh_.neighbour()[f]] - C[mesh_.owner()[f]];
+    }
+    forAll(mesh_.boundary(), patchi)
+    {
+        const fvPatch& patch = mesh_.boundary()[patchi];
+        const fvsPatchScalarField& phip = phiRel.boundaryField()[patchi];
+        const vectorField d(patch.delta());
+        forAll(phip, i)
+        {
+            const label f = patch.patch().start() + i;
+            flux[f] = phip[i];
+            coupled[f] = patch.coupled();
+            delta[f] = d[i];
+        }
+    }
+
+    pack();
+    scalarField& m = state_.mass.primitiveFieldRef();
+    scalarField& alpha = state_.alpha.primitiveFieldRef();
+    scalarField total(nFaces, Zero);
+
+    scalarField V(V0);
+    scalarField low(nFaces), anti(nFaces), F(nFaces);
+    scalarField alphaLow(nCells), Pp(nCells), Pm(nCells), Rp(nCells);
+    scalarField Rm(nCells), out(nCells), mq(nCells);
+    vectorField g(nCells);
+
+    const boolList all(nFaces, true);
+    boolList full(nFaces);
+
+    for (label sub = 1; sub <= result.subSteps; ++sub)
+    {
+        const scalarField Vold(V);
+        V = V0 + (scalar(sub)/result.subSteps)*(V1 - V0);
+
+        const scalarField alphaNei(neighbour(alpha));
+        const scalarField pNei(neighbour(q_[0]));
+        gradient(alpha, alphaNei, all, g);
+        const scalarField gx(neighbour(g.component(0)));
+        const scalarField gy(neighbour(g.component(1)));
+        const scalarField gz(neighbour(g.component(2)));
+
+        out = 0;
+        forAll(flux, f)
+        {
+            if (flux[f] > 0) out[own[f]] += flux[f];
+            else if (f < nInternal) out[mesh_.neighbour()[f]] -= flux[f];
+        }
+        out *= dt/Vold;
+        const scalarField outNei(neighbour(out));
+
+        // Bolus fraction at the faces
+        forAll(flux, f)
+        {
+            const scalar phif = flux[f];
+            const bool internal = f < nInternal;
+            const label P = own[f];
+            if (phif == 0 || (!internal && !coupled[f]))
+            {
+                // Bolus leaves through open boundaries, void comes in
+                low[f] = phif > 0 ? phif*alpha[P] : 0;
+                anti[f] = 0;
+                continue;
+            }
+
+            const label b = f - nInternal;
+            const label N = internal ? mesh_.neighbour()[f] : -1;
+            const scalar aN = internal ? alpha[N] : alphaNei[b];
+            const bool forward = phif > 0;
+            const scalar aD = forward ? alpha[P] : aN;
+            const scalar aA = forward ? aN : alpha[P];
+            low[f] = phif*aD;
+            anti[f] = 0;
+
+            const vector gD =
+                forward ? g[P]
+              : internal ? g[N]
+              : vector(gx[b], gy[b], gz[b]);
+            const vector d = forward ? delta[f] : -delta[f];
+            const scalar aU =
+                min(max(aA - 2*(gD & d), scalar(0)), scalar(1));
+            const scalar range = aA - aU;
+            if (mag(range) < 1e-9) continue;
+            const scalar aT = (aD - aU)/range;
+            if (aT <= 0 || aT >= 1) continue;
+
+            const scalar Co =
+                max(forward ? out[P] : internal ? out[N] : outNei[b], SMALL);
+            const scalar hyper = min(aT/Co, scalar(1));
+            const scalar quick =
+                min((8*Co*aT + (1 - Co)*(6*aT + 3))/8, hyper);
+            const scalar magG = mag(gD)*mag(d);
+            const scalar along =
+                magG > VSMALL ? min(sqr((gD & d)/magG), scalar(1)) : 1;
+            scalar aF = aU + (along*hyper + (1 - along)*quick)*range;
+            aF = min(max(aF, min(aD, aA)), max(aD, aA));
+            anti[f] = phif*(aF - aD);
+        }
+
+        // Limit what goes beyond upwinding
+        alphaLow = alpha*Vold/V;
+        Pp = 0;
+        Pm = 0;
+        forAll(flux, f)
+        {
+            const label P = own[f];
+            alphaLow[P] -= low[f]*dt/V[P];
+            (anti[f] > 0 ? Pm : Pp)[P] += mag(anti[f])*dt/V[P];
+            if (f < nInternal)
+            {
+                const label N = mesh_.neighbour()[f];
+                alphaLow[N] += low[f]*dt/V[N];
+                (anti[f] > 0 ? Pp : Pm)[N] += mag(anti[f])*dt/V[N];
+            }
+        }
+        forAll(alphaLow, c)
+        {
+            Rp[c] =
+                Pp[c] > VSMALL
+              ? min(max(1 - alphaLow[c], scalar(0))/Pp[c], scalar(1)) : 1;
+            Rm[c] =
+                Pm[c] > VSMALL
+              ? min(max(alphaLow[c], scalar(0))/Pm[c], scalar(1)) : 1;
+        }
+        const scalarField RpNei(neighbour(Rp));
+        const scalarField RmNei(neighbour(Rm));
+
+        // Flux of mass: the donor's compression goes with it
+        forAll(flux, f)
+        {
+            const label P = own[f];
+            const bool internal = f < nInternal;
+            const label b = f - nInternal;
+            scalar a = low[f];
+            if (anti[f] != 0)
+            {
+                const label N = internal ? mesh_.neighbour()[f] : -1;
+                const scalar RpN = internal ? Rp[N] : RpNei[b];
+                const scalar RmN = internal ? Rm[N] : RmNei[b];
+                a +=
+                    anti[f]
+                   *(anti[f] > 0 ? min(Rm[P], RpN) : min(Rp[P], RmN));
+            }
+            if (a == 0)
+            {
+                F[f] = 0;
+                continue;
+            }
+            const scalar pD =
+                flux[f] > 0 ? q_[0][P]
+              : internal ? q_[0][mesh_.neighbour()[f]]
+              : pNei[b];
+            F[f] = a*std::exp(pD/K_);
+            total[f] += F[f]/result.subSteps;
+
+            // Memory is interpolated only inside the bolus
+            const scalar aN =
+                internal ? alpha[mesh_.neighbour()[f]]
+              : coupled[f] ? alphaNei[b] : 0;
+            full[f] = alpha[P] > 0.5 && aN > 0.5;
+        }
+        forAll(F, f)
+        {
+            const scalar aN =
+                f < nInternal ? alpha[mesh_.neighbour()[f]]
+              : coupled[f] ? alphaNei[f - nInternal] : 0;
+            full[f] = alpha[own[f]] > 0.5 && aN > 0.5;
+        }
+
+        const scalarField mOld(m);
+        m *= Vold;
+        forAll(F, f)
+        {
+            m[own[f]] -= F[f]*dt;
+            if (f < nInternal) m[mesh_.neighbour()[f]] += F[f]*dt;
+        }
+        m /= V;
+
+        for (scalarField& q : q_)
+        {
+            const scalarField qNei(neighbour(q));
+            gradient(q, qNei, full, g);
+            const scalarField hx(neighbour(g.component(0)));
+            const scalarField hy(neighbour(g.component(1)));
+            const scalarField hz(neighbour(g.component(2)));
+
+            mq = mOld*q*Vold;
+            forAll(F, f)
+            {
+                if (F[f] == 0) continue;
+                const label P = own[f];
+                const bool internal = f < nInternal;
+                const label b = f - nInternal;
+                const label N = internal ? mesh_.neighbour()[f] : -1;
+                const bool forward = F[f] > 0;
+                const scalar qN =
+                    internal ? q[N] : coupled[f] ? qNei[b] : scalar(0);
+                scalar qF = forward ? q[P] : qN;
+                if (full[f])
+                {
+                    const vector gD =
+                        forward ? g[P]
+                      : internal ? g[N]
+                      : vector(hx[b], hy[b], hz[b]);
+                    const scalar s1 = (forward ? 1 : -1)*(gD & delta[f]);
+                    const scalar s2 = (forward ? 1 : -1)*(qN - q[P]);
+                    // The slope on the upwind side, from the gradient
+                    const scalar s0 = 2*s1 - s2;
+                    if (s0*s2 > 0)
+                    {
+                        qF += 0.5*sign(s2)*min(mag(s0), mag(s2));
+                    }
+                }
+                mq[P] -= F[f]*qF*dt;
+                if (internal) mq[N] += F[f]*qF*dt;
+            }
+            forAll(q, c)
+            {
+                q[c] = m[c] > 1e-12 ? mq[c]/(m[c]*V[c]) : 0;
+            }
+        }
+
+        forAll(alpha, c) alpha[c] = m[c]*std::exp(-q_[0][c]/K_);
+    }
+
+    unpack();
+    state_.mass.correctBoundaryConditions();
+    state_.alpha.correctBoundaryConditions();
+
+    for (label f = 0; f < nInternal; ++f) massFlux[f] = total[f];
+    forAll(mesh_.boundary(), patchi)
+    {
+        fvsPatchScalarField& Fp = massFlux.boundaryFieldRef()[patchi];
+        forAll(Fp, i)
+        {
+            Fp[i] = total[mesh_.boundaryMesh()[patchi].start() + i];
+        }
+    }
+    return result;
+}
+
+// ************************************************************************* //

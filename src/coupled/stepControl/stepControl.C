@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 the bolusFoam developers
+
+#include "stepControl.H"
+
+Foam::stepControl::stepControl(Time& time)
+:
+    time_(time),
+    memory_
+    (
+        IOobject
+        (
+            "stepControl",
+            time.timeName(),
+            "uniform",
+            time,
+            IOobject::READ_IF_PRESENT,
+            IOobject::AUTO_WRITE
+        )
+    ),
+    patience_(memory_.lookupOrDefault<label>("patience", 0)),
+    steps_(memory_.lookupOrDefault<label>("steps", 0)),
+    rejected_(memory_.lookupOrDefault<label>("rejected", 0)),
+    iterations_(memory_.lookupOrDefault<label>("iterations", 0)),
+    writeInterval_(0)
+{
+    const dictionary& dict = time.controlDict();
+    deltaT_ =
+        memory_.lookupOrDefault<scalar>("deltaT", dict.get<scalar>("deltaT"));
+    maxDeltaT_ = dict.lookupOrDefault<scalar>("maxDeltaT", 0.05);
+    minDeltaT_ = dict.lookupOrDefault<scalar>("minDeltaT", 1e-5);
+    maxCourant_ = dict.lookupOrDefault<scalar>("maxCourant", 2);
+    easyIterations_ = dict.lookupOrDefault<label>("easyIterations", 8);
+
+    auto positive = [&](const word& name, const scalar v)
+    {
+        if (!(v > 0))
+        {
+            FatalIOErrorInFunction(dict)
+                << "entry " << name << ": " << v << "; valid are numbers > 0"
+                << exit(FatalIOError);
+        }
+    };
+    positive("deltaT", deltaT_);
+    positive("maxDeltaT", maxDeltaT_);
+    positive("minDeltaT", minDeltaT_);
+    positive("maxCourant", maxCourant_);
+
+    const word control(dict.get<word>("writeControl"));
+    if (control == "adjustableRunTime" || control == "adjustable")
+    {
+        writeInterval_ = dict.get<scalar>("writeInterval");
+        positive("writeInterval", writeInterval_);
+    }
+}
+
+
+void Foam::stepControl::start()
+{
+    scalar dt = min(deltaT_, maxDeltaT_);
+
+    // Meet the next event in equal steps
+    scalar toEvent = time_.endTime().value() - time_.value();
+    if (writeInterval_ > 0)
+    {
+        const scalar n =
+            std::floor(time_.value()/writeInterval_ + 1e-6) + 1;
+        toEvent = min(toEvent, n*writeInterval_ - time_.value());
+    }
+    if (toEvent > 1e-9*dt)
+    {
+        dt = toEvent/std::ceil(toEvent/dt - 1e-6);
+    }
+    time_.setDeltaT(dt, false);
+    ++time_;
+}
+
+
+bool Foam::stepControl::retry()
+{
+    const scalar dt = 0.4*time_.deltaTValue();
+    if (dt < minDeltaT_) return false;
+
+    ++rejected_;
+    patience_ = 3;
+    deltaT_ = dt;
+    const scalar told = time_.value() - time_.deltaTValue();
+    time_.setDeltaT(dt, false);
+    time_.setTime(told + dt, time_.timeIndex());
+    return true;
+}
+
+
+void Foam::stepControl::done(const label iterations, const scalar courant)
+{
+    ++steps_;
+    iterations_ += iterations;
+
+    const scalar dt = time_.deltaTValue();
+    if (patience_ > 0)
+    {
+        --patience_;
+    }
+    else if (iterations <= easyIterations_)
+    {
+        deltaT_ = min(1.3*max(deltaT_, dt), maxDeltaT_);
+    }
+    else if (iterations > 2*easyIterations_)
+    {
+        deltaT_ = max(0.7*dt, minDeltaT_);
+    }
+    if (courant > SMALL)
+    {
+        deltaT_ = min(deltaT_, max(dt*maxCourant_/courant, minDeltaT_));
+    }
+
+    memory_.set("deltaT", deltaT_);
+    memory_.set("patience", patience_);
+    memory_.set("steps", steps_);
+    memory_.set("rejected", rejected_);
+    memory_.set("iterations", iterations_);
+}
+
+
+bool Foam::stepControl::write() const
+{
+    // OpenFOAM's own decision is of no use with an interval: it is made
+    // before a step, which may then be rejected
+    if (writeInterval_ == 0) return time_.writeTime();
+
+    const scalar n = std::round(time_.value()/writeInterval_);
+    return mag(time_.value() - n*writeInterval_) < 1e-6*time_.deltaTValue();
+}
+
+// ************************************************************************* //

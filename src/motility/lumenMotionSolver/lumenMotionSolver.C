@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 the bolusFoam developers
+
+#include "lumenMotionSolver.H"
+#include "DynamicList.H"
+#include "addToRunTimeSelectionTable.H"
+#include "dictionaryCheck.H"
+#include "emptyPolyPatch.H"
+#include "polyMesh.H"
+#include "primitiveMeshTools.H"
+
+// * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
+
+namespace Foam
+{
+defineTypeNameAndDebug(lumenMotionSolver, 0);
+
+addToRunTimeSelectionTable(motionSolver, lumenMotionSolver, dictionary);
+}
+
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+void Foam::lumenMotionSolver::checkDimensions() const
+{
+    label nEmptyFaces = 0;
+
+    for (const polyPatch& pp : mesh().boundaryMesh())
+    {
+        if (isA<emptyPolyPatch>(pp))
+        {
+            nEmptyFaces += pp.size();
+        }
+    }
+
+    if (returnReduce(nEmptyFaces, sumOp<label>()))
+    {
+        FatalIOErrorInFunction(coeffDict())
+            << "Entry 'motionSolver' is " << typeName
+            << ", which moves points radially, but the mesh is planar (it has"
+            << " patches of type empty); valid are a wedge or a"
+            << " three-dimensional mesh" << exit(FatalIOError);
+    }
+}
+
+
+void Foam::lumenMotionSolver::checkWall(const scalar tolerance) const
+{
+    const scalar ratio = motion_->outermost(points0());
+
+    if (!(mag(ratio - 1) <= tolerance))
+    {
+        FatalIOErrorInFunction(coeffDict())
+            << "The outermost points of constant/polyMesh are at " << ratio
+            << " times the radius of the wall at the reference time; within"
+            << " the wallTolerance, " << tolerance
+            << ", it must be 1. Run gastricMesh after blockMesh, and both"
+            << " again after a change of constant/motilityProperties"
+            << exit(FatalIOError);
+    }
+}
+
+
+void Foam::lumenMotionSolver::checkCells(const label nSamples) const
+{
+    if (nSamples == 0)
+    {
+        return;
+    }
+
+    const scalar tStart = time().value();
+    const scalar tEnd = max(tStart, time().endTime().value());
+
+    DynamicList<scalar> times;
+
+    for (label i = 0; i <= nSamples; ++i)
+    {
+        times.append(tStart + (tEnd - tStart) * i / nSamples);
+    }
+
+    for (const scalar t : motion_->wall().eventTimes())
+    {
+        if (t > tStart && t < tEnd)
+        {
+            times.append(t);
+        }
+    }
+
+    scalar smallest = GREAT;
+    scalar smallestTime = tStart;
+
+    scalarField ownVolume;
+    scalarField neiVolume;
+
+    for (const scalar t : times)
+    {
+        const pointField p(points(t));
+
+        // The mean of its points is inside a convex cell: good enough an apex
+        // for pyramids that only have to be positive
+        pointField centres(mesh().nCells(), Zero);
+
+        forAll(centres, celli)
+        {
+            const labelList& cellPoints = mesh().cellPoints(celli);
+
+            for (const label pointi : cellPoints)
+            {
+                centres[celli] += p[pointi];
+            }
+            centres[celli] /= cellPoints.size();
+        }
+
+        primitiveMeshTools::facePyramidVolume(
+            mesh(), p, centres, ownVolume, neiVolume
+        );
+
+        const scalar volume = min(gMin(ownVolume), gMin(neiVolume));
+
+        if (volume < smallest)
+        {
+            smallest = volume;
+            smallestTime = t;
+        }
+    }
+
+    if (!(smallest > 0))
+    {
+        FatalIOErrorInFunction(coeffDict())
+            << "The motility inverts cells: the smallest face pyramid has "
+            << smallest << " m3 at t = " << smallestTime
+            << " s; every pyramid must be greater than 0. Check the waves and"
+            << " the sphincter in constant/motilityProperties and the mesh"
+            << exit(FatalIOError);
+    }
+
+    Info << typeName << ": no cell is inverted at " << times.size()
+         << " times from " << tStart << " s to " << tEnd
+         << " s; smallest face pyramid " << smallest
+         << " m3 at t = " << smallestTime << " s" << nl << endl;
+}
+
+
+Foam::tmp<Foam::pointField> Foam::lumenMotionSolver::points(
+    const scalar t
+) const
+{
+    tmp<pointField> tp(new pointField(points0()));
+
+    for (point& p : tp.ref())
+    {
+        p += motion_->displacement(p, t);
+    }
+
+    return tp;
+}
+
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::lumenMotionSolver::lumenMotionSolver(
+    const polyMesh& mesh,
+    const IOdictionary& dict
+) :
+    points0MotionSolver(mesh, dict, typeName),
+    motion_(lumenMotion::New(mesh.time()))
+{
+    // Not coeffDict(), which is all of dynamicMeshDict if there is none
+    const word coeffsName(typeName + "Coeffs");
+
+    const dictionary& coeffs = dict.found(coeffsName)
+        ? dictionaryCheck::section(dict, coeffsName)
+        : dictionary::null;
+
+    dictionaryCheck::entries(coeffs, {}, {"checkSamples", "wallTolerance"});
+
+    checkDimensions();
+
+    motion_->checkCovers(points0());
+
+    checkWall(
+        coeffs.found("wallTolerance")
+            ? dictionaryCheck::positive(coeffs, "wallTolerance")
+            : 1e-5
+    );
+
+    scalar xEnd = -GREAT;
+    for (const point& p : points0())
+    {
+        xEnd = max(xEnd, motion_->axial(p));
+    }
+
+    motion_->wall().writeTimeline(Info, returnReduce(xEnd, maxOp<scalar>()));
+
+    checkCells(
+        coeffs.found("checkSamples")
+            ? dictionaryCheck::inRange(
+                  coeffs, "checkSamples", label(0), label(1000000)
+              )
+            : 200
+    );
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+Foam::tmp<Foam::pointField> Foam::lumenMotionSolver::curPoints() const
+{
+    return points(time().value());
+}
+
+
+// ************************************************************************* //

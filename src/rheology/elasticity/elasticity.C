@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 the bolusFoam developers
+
+#include "elasticity.H"
+#include "entryReader.H"
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::elasticity::elasticity(const dictionary& dict)
+{
+    entryReader read(dict);
+
+    E_ = read.number("E", "Young's modulus [Pa]", entryReader::positive);
+    nu_ = read.number("nu", "Poisson's ratio [-]", {0, true, 0.5, false});
+
+    read.rejectOthers();
+}
+
+
+// ************************************************************************* //

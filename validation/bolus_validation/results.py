@@ -1,0 +1,441 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Copyright (C) 2026 the bolusFoam developers
+"""The results of a run: tables of the function objects, and results.json.
+
+    python -m bolus_validation.results CASE [--reference 7.5]
+
+writes results.json into the case: every number as {"value", "unit"}, peaks
+with their "time" [s]. What was not computed or written is left out; nothing
+is guessed.
+"""
+
+import argparse
+import json
+import re
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from bolus_validation.fields import Case, FoamFileError
+
+# The ten times [s] of the paper's Fig. 8
+PAPER_TIMES = (7.5, 9.0, 10.5, 12.5, 14.0, 18.0, 23.0, 25.5, 29.0, 32.0)
+
+# A written field stands for a time if it is this near [s]: a wave moves by
+# 0.1 mm in it
+TIME_TOLERANCE = 0.04
+
+# A connected piece below this part of the bolus's volume is a crumb, no
+# fragment: a few cells of a coarse mesh
+CRUMB = 0.01
+
+# Bolus carrying less equivalent stress than this [Pa] counts as unloaded: a
+# tenth of the static yield stress. Its triaxiality is a ratio of small numbers
+LOADED = 410.0
+
+
+@dataclass
+class Table:
+    """Columns (n,) and their units, by name. Time comes first, ascending."""
+
+    columns: dict[str, np.ndarray]
+    units: dict[str, str]
+
+    def __getitem__(self, name: str) -> np.ndarray:
+        return self.columns[name]
+
+    @property
+    def time(self) -> np.ndarray:
+        """(n,) [s]."""
+        return next(iter(self.columns.values()))
+
+    def at(self, name: str, time: float) -> float | None:
+        """A column at a time [s], linear between rows; None outside."""
+        if not self.time[0] - 1e-9 <= time <= self.time[-1] + 1e-6:
+            return None
+        return float(np.interp(time, self.time, self[name]))
+
+
+def _read_one(path: Path) -> Table | None:
+    """A table of one start; None if it has no row."""
+    lines = path.read_text().splitlines()
+    head = [line for line in lines if line.startswith("#")]
+    if not head:
+        raise FoamFileError(f"{path}: no head of columns")
+    # Name [unit], or a bare name; a unit may have a solidus, never a bracket
+    found = re.findall(r"(\w+)(?:\s*\[([^\]]*)\])?", head[-1].lstrip("# "))
+    names = [name for name, _ in found]
+    rows = [line.split() for line in lines if line and line[0] != "#"]
+    # The last row of a run that was killed may be cut
+    rows = [row for row in rows if len(row) == len(names)]
+    if not rows:
+        return None
+    data = np.array(rows, dtype=float).T
+    return Table(
+        dict(zip(names, data, strict=True)),
+        dict(found),
+    )
+
+
+def read_starts(case, name: str, file: str | None = None) -> list[Table]:
+    """The tables of a function object, one for each start of the run.
+
+    In the order of the times they start from, and for one time in the order
+    in which they were written.
+    """
+    folder = Path(case) / "postProcessing" / name
+    file = file or name
+    found = []
+    if folder.is_dir():
+        for start in folder.iterdir():
+            for path in start.glob(f"{file}*.dat"):
+                # file.dat, file_2.dat, ... of one start time
+                order = re.fullmatch(rf"{file}(?:_(\d+))?", path.stem)
+                if order:
+                    number = int(order.group(1) or 1)
+                    found.append((float(start.name), number, path))
+    if not found:
+        raise FoamFileError(f"{folder}: no table {file}.dat of any start")
+    tables = [_read_one(path) for *_, path in sorted(found)]
+    return [table for table in tables if table]
+
+
+def read_table(case, name: str, file: str | None = None) -> Table:
+    """The table of a function object over all the starts of the run.
+
+    Where a run was continued from a time before the former one's end, the
+    continuation counts.
+    """
+    tables = read_starts(case, name, file)
+    if not tables:
+        raise FoamFileError(f"{Path(case) / 'postProcessing' / name}: no rows")
+    columns = dict(tables[0].columns)
+    for table in tables[1:]:
+        keep = next(iter(columns.values())) < table.time[0] - 1e-9
+        columns = {
+            name: np.concatenate([column[keep], table[name]])
+            for name, column in columns.items()
+        }
+    return Table(columns, tables[0].units)
+
+
+def optional_table(case, name: str, file: str | None = None) -> Table | None:
+    """read_table, or None if the case has none."""
+    try:
+        return read_table(case, name, file)
+    except FoamFileError:
+        return None
+
+
+def value(number: float, unit: str, **more) -> dict:
+    """A number of results.json; counts stay whole."""
+    whole = isinstance(number, (int, np.integer))
+    return {
+        "value": int(number) if whole else float(number),
+        "unit": unit,
+    } | more
+
+
+def _peak(table: Table, name: str) -> dict:
+    """The largest absolute value of a column, with its sign and time."""
+    i = int(np.abs(table[name]).argmax())
+    return value(table[name][i], table.units[name], time=float(table.time[i]))
+
+
+def _final(table: Table, name: str) -> dict:
+    return value(table[name][-1], table.units[name])
+
+
+def run_numbers(path: Path) -> dict:
+    """What the run cost: steps, Newton iterations, time, cores, cells."""
+    found: dict = {}
+    steps = optional_table(path, "solver", "steps")
+    if steps:
+        found["simulatedTime"] = value(steps.time[-1], "s")
+        found["steps"] = value(steps.time.size, "-")
+        found["newtonIterations"] = value(
+            int(steps["NewtonIterations"].sum()), "-"
+        )
+        # The solver's running count, kept over restarts
+        found["rejectedSteps"] = value(int(steps["rejected"][-1]), "-")
+        found["maxCourant"] = value(steps["courant"].max(), "-")
+        found["maxMassError"] = value(np.abs(steps["massError"]).max(), "-")
+        found["alphaMin"] = value(steps["alphaMin"].min(), "-")
+        found["alphaMax"] = value(steps["alphaMax"].max(), "-")
+        found["cpuTime"] = value(
+            sum(
+                start["cpuTime"][-1]
+                for start in read_starts(path, "solver", "steps")
+            ),
+            "s",
+            of="the first rank",
+        )
+
+    log = path / "log.bolusFoam"
+    if log.is_file():
+        # A continued run appends to its log
+        runs = re.split(r"^Exec\s*:", log.read_text(), flags=re.MULTILINE)[1:]
+        clock = [
+            float(seconds)
+            for text in runs
+            for seconds in re.findall(r"clock time\s+([\d.e+-]+)", text)
+        ]
+        if clock:
+            found["clockTime"] = value(sum(clock), "s")
+        if runs:
+            cores = re.search(r"nProcs\s*:\s*(\d+)", runs[-1])
+            if cores:
+                found["cores"] = value(int(cores.group(1)), "-")
+            # The solver stops at the first step that it has to give up
+            found["givenUpSteps"] = value(
+                len(
+                    re.findall(
+                        r"FOAM FATAL ERROR[^\n]*\s+no convergence at", runs[-1]
+                    )
+                ),
+                "-",
+            )
+
+    mesh = path / "constant" / "polyMesh" / "owner"
+    if mesh.is_file() or mesh.with_name("owner.gz").is_file():
+        case = Case(path)
+        found["cells"] = value(case.mesh(0.0).n_cells, "-")
+
+    control = path / "system" / "controlDict"
+    if control.is_file() and steps:
+        end = re.search(
+            r"^\s*endTime\s+([\d.eE+-]+)\s*;", control.read_text(), re.MULTILINE
+        )
+        if end:
+            end_time = float(end.group(1))
+            found["endTime"] = value(end_time, "s")
+            found["finished"] = bool(
+                steps.time[-1] >= end_time - 1e-6 * max(end_time, 1.0)
+            )
+    return found
+
+
+# Function object: columns of which results.json has the final value and peak
+_COLUMNS = {
+    "contactForce": (
+        "total",
+        "normal",
+        "tangential",
+        "axial",
+        "resultant",
+        "tensile",
+        "total_perMass",
+        "resultant_perMass",
+    ),
+    "externalWork": ("power", "work", "work_perMass"),
+    "retainedMass": (
+        "inside",
+        "emptied",
+        "retained",
+        "upstream",
+        "balanceError",
+        "passedWhileClosed",
+    ),
+    "freeSurface": (
+        "volume",
+        "freeArea",
+        "contactArea",
+        "externalArea",
+        "surfaceToVolume",
+    ),
+    "damagedVolume": ("bolus", "damaged", "fraction"),
+}
+
+
+def table_numbers(path: Path, reference: float) -> dict:
+    """Final and peak values of the function objects.
+
+    reference: the time [s] to which the paper relates retained mass.
+    """
+    found: dict = {}
+    for name, columns in _COLUMNS.items():
+        table = optional_table(path, name)
+        if not table:
+            continue
+        found[name] = {
+            column: {
+                "final": _final(table, column),
+                "peak": _peak(table, column),
+            }
+            for column in columns
+        }
+
+    mass = optional_table(path, "retainedMass")
+    if mass:
+        # What is left at each time, against what was there at the reference
+        then = mass.at("retained", reference)
+        if then:
+            found["retainedMass"]["retainedOfReference"] = value(
+                mass["retained"][-1] / then, "-", reference=reference
+            )
+    surface = optional_table(path, "freeSurface")
+    if surface:
+        change = surface["externalArea"][-1] / surface["externalArea"][0] - 1
+        found["freeSurface"]["changeSinceStart"] = value(change, "-")
+        then = surface.at("externalArea", reference)
+        if then:
+            found["freeSurface"]["changeSinceReference"] = value(
+                surface["externalArea"][-1] / then - 1,
+                "-",
+                reference=reference,
+            )
+    damage = optional_table(path, "damagedVolume")
+    if damage and damage["damaged"].max() > 0:
+        first = int(np.flatnonzero(damage["damaged"] > 0)[0])
+        found["damagedVolume"]["firstDamage"] = value(damage.time[first], "s")
+    return found
+
+
+@dataclass
+class State:
+    """The bolus at a written time, from its fields; SI units.
+
+    Extremes are over the cells with alpha > 0.5. Pieces are connected sets of
+    such cells of at least 1 % of the bolus, crumbs the smaller ones; of all
+    the bolus, and of what is not damaged (D <= 0.5), which only bolus that
+    still carries tension connects.
+    """
+
+    time: float
+    numbers: dict
+
+    def __getitem__(self, name: str) -> float:
+        return self.numbers[name]["value"]
+
+    def get(self, name: str) -> float | None:
+        """A number, None if its field was not written."""
+        return self.numbers[name]["value"] if name in self.numbers else None
+
+
+def state(case: Case, time: float) -> State:
+    """Measure the bolus at a written time."""
+    mesh = case.mesh(time)
+    alpha = case.field(time, "alpha")
+    bolus = alpha > 0.5
+    volume = alpha * mesh.cell_volumes
+    found: dict = {}
+
+    def field(name):
+        return case.field(time, name) if case.has(time, name) else None
+
+    damage = field("D")
+    intact = bolus if damage is None else bolus & (damage <= 0.5)
+    whole = volume[bolus].sum()
+
+    for label, cells in (("", bolus), ("Intact", intact)):
+        pieces = mesh.fragments(cells, volume)
+        large = pieces >= CRUMB * whole
+        found["pieces" + label] = value(large.sum(), "-")
+        found["crumbs" + label] = value((~large).sum(), "-")
+        if pieces.size:
+            found["largestPiece" + label] = value(pieces[0] / whole, "-")
+
+    if bolus.any():
+        sigma = field("sigmaEq")
+        if sigma is not None:
+            found["sigmaEqMax"] = value(sigma[bolus].max(), "Pa")
+            mean = np.average(sigma[bolus], weights=volume[bolus])
+            found["sigmaEqMean"] = value(mean, "Pa")
+        eta = field("triaxiality")
+        if eta is not None:
+            found["triaxialityMax"] = value(eta[bolus].max(), "-")
+            found["triaxialityMin"] = value(eta[bolus].min(), "-")
+            # Damaged bolus has hardly a deviator: its ratio says nothing
+            carrying = intact if sigma is None else intact & (sigma > LOADED)
+            if carrying.any():
+                found["triaxialityMaxIntact"] = value(eta[carrying].max(), "-")
+                found["triaxialityMinIntact"] = value(eta[carrying].min(), "-")
+            # The core: within a third of the radius of a sphere of the volume
+            # in the domain
+            if mesh.axisymmetric:
+                full = 2 * np.pi / mesh.wedge_angle * whole
+                radius = np.cbrt(3 * full / 4 / np.pi)
+                core = carrying & (mesh.radii < radius / 3)
+                if core.any():
+                    found["triaxialityMaxCore"] = value(eta[core].max(), "-")
+        strain = field("epsilonPEq")
+        if strain is not None:
+            found["epsilonPEqMax"] = value(strain[bolus].max(), "-")
+        velocity = field("U")
+        if velocity is not None:
+            axial = velocity[bolus, 0]
+            found["jetForward"] = value(max(axial.max(), 0), "m/s")
+            found["jetBackward"] = value(max(-axial.min(), 0), "m/s")
+        pressure = field("p")
+        if pressure is not None:
+            found["pMax"] = value(pressure[bolus].max(), "Pa")
+            found["pMin"] = value(pressure[bolus].min(), "Pa")
+        if damage is not None:
+            part = volume[damage > 0.5].sum() / volume.sum()
+            found["damagedFraction"] = value(part, "-")
+    return State(time, found)
+
+
+def states(case: Case, times=PAPER_TIMES) -> dict[float, State]:
+    """The bolus at those of the times asked for that were written."""
+    found = {}
+    for time in times:
+        written = case.nearest(time, TIME_TOLERANCE)
+        if written is not None and case.has(written, "alpha"):
+            found[time] = state(case, written)
+    return found
+
+
+def collect(path, reference: float = 7.5, times=PAPER_TIMES) -> dict:
+    """All that results.json holds."""
+    path = Path(path)
+    case = Case(path)
+    measured = states(case, times)
+    found = {
+        "case": path.resolve().name,
+        "run": run_numbers(path),
+        "results": table_numbers(path, reference),
+    }
+    if measured:
+        found["times"] = {
+            f"{time:g}": {"written": value(at.time, "s")} | at.numbers
+            for time, at in measured.items()
+        }
+    return found
+
+
+def write_json(path, **options) -> Path:
+    """Write results.json into the case; returns its path."""
+    target = Path(path) / "results.json"
+    # NaN is no JSON: let it fail here, where it is seen
+    text = json.dumps(collect(path, **options), indent=2, allow_nan=False)
+    target.write_text(text + "\n")
+    return target
+
+
+def main(arguments=None) -> int:
+    """Command line."""
+    parser = argparse.ArgumentParser(
+        prog="results", description="Write results.json of a case."
+    )
+    parser.add_argument("case", type=Path)
+    parser.add_argument(
+        "--reference",
+        type=float,
+        default=7.5,
+        metavar="T",
+        help="relate retained mass and surface to this time [s] (7.5)",
+    )
+    options = parser.parse_args(arguments)
+    try:
+        print(write_json(options.case, reference=options.reference))
+    except FoamFileError as error:
+        print(f"results: {error}", file=sys.stderr)
+        return 1
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
