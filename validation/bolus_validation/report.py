@@ -78,9 +78,18 @@ class Row:
     find: Callable[[Run], Finding]
 
 
+def _not_loaded(run: Run, time: float) -> Finding:
+    """What to say of the triaxiality where nothing carries a load."""
+    if run.at(time, "sigmaEqMax") is None:
+        return NOTHING
+    return ("no loaded bolus there", False)
+
+
 def _core_triaxiality(run: Run) -> Finding:
     eta = run.at(7.5, "triaxialityMaxCore")
-    return NOTHING if eta is None else (f"largest there {eta:.2f}", eta > 1)
+    if eta is None:
+        return _not_loaded(run, 7.5)
+    return (f"largest there {eta:.2f}", eta > 1)
 
 
 def _first_damage(run: Run) -> Finding:
@@ -151,8 +160,8 @@ def _work_climbs(run: Run) -> Finding:
 def _compression(run: Run) -> Finding:
     lowest = run.at(12.5, "triaxialityMinIntact")
     extreme = run.at(12.5, "triaxialityMin")
-    if lowest is None:
-        return NOTHING
+    if lowest is None or extreme is None:
+        return _not_loaded(run, 12.5)
     return (
         f"down to {lowest:.3g} in loaded bolus, {extreme:.3g} anywhere",
         lowest < -3,

@@ -159,13 +159,28 @@ Foam::bolusFields::bolusFields
         mesh,
         dimensionedScalar("phi", dimVolume/dimTime, 0.0)
     ),
+    phiRel
+    (
+        IOobject
+        (
+            "phiRel",
+            mesh.time().timeName(),
+            mesh,
+            IOobject::READ_IF_PRESENT,
+            IOobject::AUTO_WRITE
+        ),
+        mesh,
+        dimensionedScalar("phi", dimVolume/dimTime, 0.0)
+    ),
     massFlux
     (
         transient(mesh, "massFlux"),
         mesh,
         dimensionedScalar("massFlux", dimVolume/dimTime, 0.0)
     ),
-    state{alpha, mass, U, p, deviator, epsilonPEq, D, theta, pointU, elasticSlip}
+    state
+    {
+        alpha, mass, U, p, deviator, epsilonPEq, D, theta, pointU, elasticSlip, stress, phiRel}
 {
     if (min(alpha).value() < -0.01 || max(alpha).value() > 1.1)
     {
@@ -183,6 +198,72 @@ Foam::bolusFields::bolusFields
     }
     mass.correctBoundaryConditions();
     derive();
+}
+
+
+template<class Operation>
+void Foam::bolusFields::forState(const Operation& op)
+{
+    volScalarField* scalars[] =
+        {&alpha, &mass, &p, &epsilonPEq, &D, &theta};
+    volVectorField* vectors[] = {&U, &elasticSlip};
+    volSymmTensorField* tensors[] = {&deviator, &stress};
+    surfaceScalarField* fluxes[] = {&phiRel};
+    pointVectorField* points[] = {&pointU};
+
+    label i = 0;
+    for (auto* f : scalars) op(oldScalars_, i++, *f);
+    i = 0;
+    for (auto* f : vectors) op(oldVectors_, i++, *f);
+    i = 0;
+    for (auto* f : tensors) op(oldTensors_, i++, *f);
+    i = 0;
+    for (auto* f : fluxes) op(oldFluxes_, i++, *f);
+    i = 0;
+    for (auto* f : points) op(oldPoints_, i++, *f);
+}
+
+
+namespace Foam
+{
+
+struct storeField
+{
+    template<class Field>
+    void operator()(PtrList<Field>& old, const label i, const Field& f) const
+    {
+        if (i < old.size())
+        {
+            old[i] == f;
+            return;
+        }
+        IOobject io(f.name() + "Start", f.instance(), f.db());
+        io.registerObject() = false;
+        old.append(new Field(io, f));
+    }
+};
+
+struct restoreField
+{
+    template<class Field>
+    void operator()(PtrList<Field>& old, const label i, Field& f) const
+    {
+        f == old[i];
+    }
+};
+
+} // End namespace Foam
+
+
+void Foam::bolusFields::store()
+{
+    forState(storeField());
+}
+
+
+void Foam::bolusFields::restore()
+{
+    forState(restoreField());
 }
 
 

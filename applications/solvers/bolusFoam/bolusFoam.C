@@ -34,6 +34,25 @@ Usage
 
 using namespace Foam;
 
+//- The step cannot be made short enough
+static void giveUp
+(
+    const Time& runTime,
+    const stepControl& control,
+    const coupledSystem::report& solved
+)
+{
+    FatalErrorInFunction
+        << "no convergence at t = " << runTime.value()
+        << " s with the smallest step allowed (minDeltaT "
+        << control.minDeltaT() << " s): " << solved.reason << ", worst at "
+        << solved.worst << " m. Nothing written is lost: the last written"
+        << " time is " << runTime.times().last().name()
+        << " s; the run can go on from there with other settings"
+        << exit(FatalError);
+}
+
+
 int main(int argc, char* argv[])
 {
     argList::addNote
@@ -97,47 +116,47 @@ int main(int argc, char* argv[])
 
     while (runTime.run())
     {
+        fields.store();
         control.start();
 
-        mesh.update();
-        coupledSystem::report solved = system.solve(runTime.deltaTValue());
-
-        while (!solved.converged)
+        coupledSystem::report solved;
+        historyTransport::report moved;
+        bool done = false;
+        while (!done)
         {
-            Info<< "t " << runTime.value() << " s, dt "
-                << runTime.deltaTValue() << " s: not converged ("
-                << solved.reason << ", stress imbalance "
-                << solved.momentum << ", volume rate " << solved.continuity
-                << ", worst at " << solved.worst << "): shorter step" << endl;
-
-            if (!control.retry())
-            {
-                FatalErrorInFunction
-                    << "no convergence at t = " << runTime.value()
-                    << " s with the smallest step allowed (minDeltaT "
-                    << control.minDeltaT() << " s): " << solved.reason
-                    << ", worst at " << solved.worst
-                    << " m. The last written time is kept; continue from it"
-                    << " with other settings" << exit(FatalError);
-            }
             mesh.update();
             solved = system.solve(runTime.deltaTValue());
+
+            if (!solved.converged)
+            {
+                Info<< "t " << runTime.value() << " s, dt "
+                    << runTime.deltaTValue() << " s: not converged ("
+                    << solved.reason << ", stress imbalance "
+                    << solved.momentum << ", volume rate "
+                    << solved.continuity << ", worst at " << solved.worst
+                    << "): shorter step" << endl;
+                if (!control.retry()) giveUp(runTime, control, solved);
+                continue;
+            }
+
+            if (args.found("checkTangent"))
+            {
+                Info<< "Tangent against finite differences: "
+                    << system.checkTangent(runTime.deltaTValue()) << endl;
+            }
+
+            system.accept(fields.phi, fields.wallForce, fields.wallPower);
+            moved = transport.advance
+            (
+                fields.phi, runTime.deltaTValue(), fields.massFlux
+            );
+
+            // A cell cannot hold more than it has room for: the step was too
+            // long for the void that it had to close
+            done = moved.alphaMax <= transport.maxAlpha() || !control.retry();
+            if (!done) fields.restore();
         }
 
-        if (args.found("checkTangent"))
-        {
-            Info<< "Tangent against finite differences: "
-                << system.checkTangent(runTime.deltaTValue()) << endl;
-        }
-
-        system.accept
-        (
-            fields.phi, fields.stress, fields.wallForce, fields.wallPower
-        );
-        const historyTransport::report moved = transport.advance
-        (
-            fields.phi, runTime.deltaTValue(), fields.massFlux
-        );
         fields.damage();
         fields.derive();
 

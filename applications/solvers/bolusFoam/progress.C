@@ -95,8 +95,11 @@ void Foam::progress::step
             << low << tab << high << tab << time_.elapsedCpuTime() << endl;
     }
 
+    // Not time_.run(), which would execute the function objects
+    const bool last =
+        time_.value() >= time_.endTime().value() - 0.5*time_.deltaTValue();
     const scalar now = clock_.elapsedTime();
-    if (now - lastLine_ < 1 && time_.run()) return;
+    if (now - lastLine_ < 1 && !last) return;
     lastLine_ = now;
 
     const scalar done = time_.value() - startTime_;

@@ -117,11 +117,49 @@ void Foam::coupledSystem::freeze()
     N_.setSize(nCells);
     a_.setSize(nCells);
     phi_.setSize(nCells);
+    room_.setSize(nCells);
     overfill_.setSize(nCells);
     damaged_.setSize(nCells);
     hourglassEta_.setSize(nCells);
+    eta_.setSize(nCells);
     pOld_ = state_.p.primitiveField();
     UOld_ = state_.U.primitiveField();
+
+    // Void that the step may close: less what the last velocity would fill,
+    // but a twentieth at least
+    scalarField inflow(nCells, Zero);
+    {
+        auto add = [&](const label c, const scalar out, const scalar alphaN)
+        {
+            if (out < 0) inflow[c] -= out*max(alphaN - alpha[c], scalar(0));
+        };
+        const surfaceScalarField& phi = state_.phiRel;
+        const labelUList& own = mesh_.owner();
+        const labelUList& nei = mesh_.neighbour();
+        forAll(nei, f)
+        {
+            add(own[f], phi[f], alpha[nei[f]]);
+            add(nei[f], -phi[f], alpha[own[f]]);
+        }
+        forAll(mesh_.boundary(), patchi)
+        {
+            const fvPatch& patch = mesh_.boundary()[patchi];
+            if (!patch.coupled()) continue;
+            const scalarField alphaN
+            (
+                alpha.boundaryField()[patchi].patchNeighbourField()
+            );
+            forAll(patch, i)
+            {
+                add
+                (
+                    patch.faceCells()[i],
+                    phi.boundaryField()[patchi][i],
+                    alphaN[i]
+                );
+            }
+        }
+    }
 
     const scalar G = law_.elastic().G();
     const volVectorField gradAlpha(fvc::grad(alpha));
@@ -131,30 +169,47 @@ void Foam::coupledSystem::freeze()
         const scalar a = min(max(alpha[c], scalar(0)), scalar(1));
         a_[c] = a < 1e-6 ? 0 : a;
         damaged_[c] = state_.D[c] > 0.5;
+        room_[c] = max
+        (
+            1 - a_[c] - inflow[c]*deltaT_/space_.V()[c],
+            0.05*(1 - a_[c])
+        );
         overfill_[c] = 0.5*max(alpha[c] - 1, scalar(0))/overfillTime_;
 
         const bool atWall =
             separates_[c] && magSqr(space_.cellWallNormal()[c]) > 0;
-        phi_[c] = (damaged_[c] || atWall) ? 1 : void_.opening(alpha[c]);
-
         // Interface where alpha varies over the cell by more than a fifth
         vector n = gradAlpha[c];
         if (space_.nd() == 2) n -= (n & space_.normal())*space_.normal();
         const scalar magN = mag(n);
         const scalar h = space_.cellSize(c, n/max(magN, VSMALL));
-        const scalar sharp = min(magN*h/0.2, scalar(1));
+        scalar sharp = min(magN*h/0.2, scalar(1));
+        phi_[c] =
+            damaged_[c] || atWall
+          ? 1
+          : void_.opening(alpha[c])*(alpha[c] < 0.5 ? 1 : sharp);
+        const vector& nw = space_.cellWallNormal()[c];
+        if (atWall && (nw & state_.stress[c] & nw) > -contactPressure_)
+        {
+            sharp = 0;
+        }
         const symmTensor interface =
             magN > SMALL ? sqr(n/magN) : symmTensor(Zero);
         const symmTensor otherwise =
             atWall
-          ? sqr(space_.cellWallNormal()[c])
+          ? sqr(nw)
           : symmTensor((1.0/3.0)*symmTensor::I);
         N_[c] = sharp*interface + (1 - sharp)*otherwise;
 
-        const scalar eta =
-            a_[c]*max(state_.theta[c], scalar(1e-3))*G*deltaT_
-          + (1 - a_[c])*void_.eta();
-        hourglassEta_[c] = hourglass_*eta;
+        eta_[c] =
+            (1 - a_[c])*void_.eta()
+          + (damaged_[c] ? a_[c]*void_.etaDamaged() : 0);
+        hourglassEta_[c] =
+            hourglass_
+           *(
+                eta_[c]
+              + a_[c]*max(state_.theta[c], scalar(1e-3))*G*deltaT_
+            );
     }
 
     // Pressure smoothing between cells full of bolus
@@ -241,11 +296,15 @@ Foam::coupledSystem::coupledSystem
     void_(voids),
     state_(state),
     tolerance_(dict.lookupOrDefault<scalar>("tolerance", 1e-6)),
-    maxIterations_(dict.lookupOrDefault<label>("maxIterations", 25)),
+    maxIterations_(dict.lookupOrDefault<label>("maxIterations", 60)),
     hourglass_(dict.lookupOrDefault<scalar>("hourglass", 0.05)),
     smoothing_(dict.lookupOrDefault<scalar>("pressureSmoothing", 0.01)),
     overfillTime_(dict.lookupOrDefault<scalar>("overfillTime", 0.02)),
     inertia_(dict.lookupOrDefault<scalar>("inertia", 0)),
+    contactPressure_
+    (
+        dict.lookupOrDefault<scalar>("contactPressure", 50)
+    ),
     space_(mesh_, kinds(state.U)),
     elasticSlip_(state.elasticSlip),
     deltaT_(1),
@@ -265,6 +324,7 @@ Foam::coupledSystem::coupledSystem
     notNegative("hourglass", hourglass_);
     notNegative("pressureSmoothing", smoothing_);
     notNegative("inertia", inertia_);
+    notNegative("contactPressure", contactPressure_);
     if (!(tolerance_ > 0) || !(overfillTime_ > 0) || maxIterations_ < 1)
     {
         FatalIOErrorInFunction(dict)
@@ -283,7 +343,6 @@ Foam::coupledSystem::coupledSystem
 void Foam::coupledSystem::accept
 (
     surfaceScalarField& phi,
-    volSymmTensorField& stress,
     volVectorField& wallForce,
     volScalarField& wallPower
 )
@@ -351,7 +410,7 @@ void Foam::coupledSystem::accept
               : vector(Zero);
         }
 
-        stress[c] = r.dev + r.P*symmTensor::I;
+        state_.stress[c] = r.dev + r.P*symmTensor::I;
 
         const labelList& pts = mesh_.cellPoints()[c];
         vector U = Zero;

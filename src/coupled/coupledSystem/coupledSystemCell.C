@@ -45,11 +45,11 @@ void Foam::coupledSystem::evaluate(const label c, cellResult& r) const
 
     r.pv = p - (N_[c] && r.r.s);
     scalar rate;
-    void_.rate(r.pv, a, phi_[c], deltaT_, rate, r.drdpv);
+    void_.rate(r.pv, a, room_[c], phi_[c], deltaT_, rate, r.drdpv);
     r.residual = growth + rate;
 
     r.P = -(a*p + (1 - a)*r.pv);
-    r.dev = a*r.r.s + (2*void_.eta()*(1 - a))*dev(symm(r.gradU));
+    r.dev = a*r.r.s + (2*eta_[c])*dev(symm(r.gradU));
 }
 
 
@@ -216,7 +216,7 @@ void Foam::coupledSystem::assembleCell
             }
             dPv[j] = (isP ? 1 : 0) - (N_[c] && ds);
             dP[j] = -((isP ? a : 0) + (1 - a)*dPv[j]);
-            dDev[j] = a*ds + (2*void_.eta()*(1 - a))*dev(symm(dGrad));
+            dDev[j] = a*ds + (2*eta_[c])*dev(symm(dGrad));
 
             for (label i = 0; i < n; ++i)
             {

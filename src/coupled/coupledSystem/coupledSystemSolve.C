@@ -12,7 +12,7 @@ void Foam::coupledSystem::setPetsc(const dictionary& dict)
 
     string options
     (
-        "-bolus_snes_type newtonls"
+        "-bolus_snes_type newtonls -bolus_snes_linesearch_type bt"
         " -bolus_ksp_type preonly -bolus_pc_type lu"
         " -bolus_pc_factor_mat_solver_type mumps"
         " -bolus_mat_mumps_icntl_14 80 "
@@ -68,12 +68,6 @@ void Foam::coupledSystem::setPetsc(const dictionary& dict)
     SNESSetJacobian(snes_, J_, J_, jacobianFunction, this);
     SNESSetConvergenceTest(snes_, convergedFunction, this, nullptr);
     SNESSetTolerances(snes_, 0, 0, 1e-12, maxIterations_, 10000);
-
-    SNESLineSearch search;
-    SNESGetLineSearch(snes_, &search);
-    SNESLineSearchSetType(search, SNESLINESEARCHSHELL);
-    SNESLineSearchShellSetUserFunc(search, lineSearch, this);
-
     petscCheck(SNESSetFromOptions(snes_), "petscOptions of fvSolution");
 }
 
@@ -368,74 +362,6 @@ PetscErrorCode Foam::coupledSystem::jacobianFunction
 }
 
 
-Foam::scalar Foam::coupledSystem::merit(Vec f) const
-{
-    const label nNode = space_.nd()*space_.ownedNodes().size();
-    const PetscScalar* v;
-    VecGetArrayRead(f, &v);
-    scalar sum = 0;
-    for (label i = 0; i < nNode; ++i) sum += sqr(v[i]);
-    forAll(phi_, c)
-    {
-        // Where a void may open, its rate is a measure of the pressure
-        const scalar w = min(void_.zeta()/(max(phi_[c], SMALL)*P0_), scalar(1));
-        sum += sqr(w*v[nNode + c]);
-    }
-    VecRestoreArrayRead(f, &v);
-    return std::sqrt(returnReduce(sum, sumOp<scalar>()));
-}
-
-
-PetscErrorCode Foam::coupledSystem::lineSearch
-(
-    SNESLineSearch search, void* ctx
-)
-{
-    coupledSystem& system = *static_cast<coupledSystem*>(ctx);
-
-    Vec X, F, Y, W, G;
-    SNESLineSearchGetVecs(search, &X, &F, &Y, &W, &G);
-    SNES snes;
-    SNESLineSearchGetSNES(search, &snes);
-
-    // PETSc: x - lambda y
-    const scalar old = system.merit(F);
-    scalar best = GREAT;
-    for (const scalar n : system.lastNorms_) best = min(best, n);
-    const label n = system.lastNorms_.size();
-    const scalar bound = n < 2 ? GREAT : min(4*old, 20*best);
-    system.lastNorms_.append(old);
-
-    // A shorter step now and then breaks cycles
-    PetscReal lambda = n > 8 && n % 3 == 0 ? 0.5 : 1;
-    for (label i = 0; ; ++i)
-    {
-        VecWAXPY(W, -lambda, Y, X);
-        SNESComputeFunction(snes, W, G);
-        if (system.merit(G) < bound || i == 5) break;
-        lambda *= 0.5;
-    }
-    PetscReal norm;
-    VecNorm(G, NORM_2, &norm);
-    VecCopy(W, X);
-    VecCopy(G, F);
-
-    PetscReal xNorm, yNorm;
-    VecNorm(X, NORM_2, &xNorm);
-    VecNorm(Y, NORM_2, &yNorm);
-    SNESLineSearchSetNorms(search, xNorm, norm, yNorm);
-    SNESLineSearchSetLambda(search, lambda);
-    SNESLineSearchSetReason
-    (
-        search,
-        norm < GREAT
-      ? SNES_LINESEARCH_SUCCEEDED
-      : SNES_LINESEARCH_FAILED_NANORINF
-    );
-    return 0;
-}
-
-
 PetscErrorCode Foam::coupledSystem::convergedFunction
 (
     SNES snes, PetscInt it, PetscReal, PetscReal, PetscReal,
@@ -499,7 +425,6 @@ const Foam::coupledSystem::report& Foam::coupledSystem::solve
 
     gather(x_);
     qLast_ = q_;
-    lastNorms_.clear();
     petscCheck(SNESSolve(snes_, nullptr, x_), "SNESSolve");
 
     SNESConvergedReason reason;

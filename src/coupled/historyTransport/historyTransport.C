@@ -115,13 +115,20 @@ Foam::historyTransport::historyTransport
     K_(bulkModulus),
     inertia_(inertia),
     maxCourant_(dict.lookupOrDefault<scalar>("maxCourant", 0.3)),
-    maxSubSteps_(dict.lookupOrDefault<label>("maxSubSteps", 1000))
+    maxSubSteps_(dict.lookupOrDefault<label>("maxSubSteps", 1000)),
+    maxAlpha_(dict.lookupOrDefault<scalar>("maxAlpha", 1.01))
 {
     if (!(maxCourant_ > 0) || maxCourant_ > 0.5)
     {
         FatalIOErrorInFunction(dict)
             << "entry maxCourant: " << maxCourant_
             << "; valid are numbers > 0 and <= 0.5" << exit(FatalIOError);
+    }
+    if (!(maxAlpha_ > 1))
+    {
+        FatalIOErrorInFunction(dict)
+            << "entry maxAlpha: " << maxAlpha_ << "; valid are numbers > 1"
+            << exit(FatalIOError);
     }
 }
 
@@ -170,7 +177,8 @@ Foam::historyTransport::report Foam::historyTransport::advance
     surfaceScalarField& massFlux
 )
 {
-    surfaceScalarField phiRel("phiRel", phi);
+    surfaceScalarField& phiRel = state_.phiRel;
+    phiRel = phi;
     if (mesh_.moving()) phiRel -= mesh_.phi();
 
     report result;
@@ -354,19 +362,14 @@ Foam::historyTransport::report Foam::historyTransport::advance
               : pNei[b];
             F[f] = a*std::exp(pD/K_);
             total[f] += F[f]/result.subSteps;
-
-            // Memory is interpolated only inside the bolus
-            const scalar aN =
-                internal ? alpha[mesh_.neighbour()[f]]
-              : coupled[f] ? alphaNei[b] : 0;
-            full[f] = alpha[P] > 0.5 && aN > 0.5;
         }
+        // Memory is interpolated only inside the bolus
         forAll(F, f)
         {
             const scalar aN =
                 f < nInternal ? alpha[mesh_.neighbour()[f]]
               : coupled[f] ? alphaNei[f - nInternal] : 0;
-            full[f] = alpha[own[f]] > 0.5 && aN > 0.5;
+            full[f] = alpha[own[f]] > 0.9 && aN > 0.9;
         }
 
         const scalarField mOld(m);
@@ -428,6 +431,7 @@ Foam::historyTransport::report Foam::historyTransport::advance
     unpack();
     state_.mass.correctBoundaryConditions();
     state_.alpha.correctBoundaryConditions();
+    result.alphaMax = gMax(alpha);
 
     for (label f = 0; f < nInternal; ++f) massFlux[f] = total[f];
     forAll(mesh_.boundary(), patchi)

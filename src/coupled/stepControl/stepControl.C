@@ -3,9 +3,27 @@
 
 #include "stepControl.H"
 
+namespace Foam
+{
+
+//- A state of time in which nothing is to be written
+struct quietTimeState : public TimeState
+{
+    quietTimeState(const TimeState& state)
+    :
+        TimeState(state)
+    {
+        writeTime_ = false;
+    }
+};
+
+} // End namespace Foam
+
+
 Foam::stepControl::stepControl(Time& time)
 :
     time_(time),
+    before_(time),
     memory_
     (
         IOobject
@@ -55,6 +73,22 @@ Foam::stepControl::stepControl(Time& time)
 }
 
 
+void Foam::stepControl::advance(const scalar deltaT)
+{
+    time_.setDeltaT(deltaT, false);
+    ++time_;
+
+    // OpenFOAM decides now whether to write, before the step, which may yet be
+    // rejected; and by times counted from the start of the run, which need not
+    // be those of a former run. Left so, function objects would write their
+    // state into folders of their own. write() decides instead
+    if (writeInterval_ > 0)
+    {
+        static_cast<TimeState&>(time_) = quietTimeState(time_);
+    }
+}
+
+
 void Foam::stepControl::start()
 {
     scalar dt = min(deltaT_, maxDeltaT_);
@@ -71,8 +105,8 @@ void Foam::stepControl::start()
     {
         dt = toEvent/std::ceil(toEvent/dt - 1e-6);
     }
-    time_.setDeltaT(dt, false);
-    ++time_;
+    before_ = time_;
+    advance(dt);
 }
 
 
@@ -84,9 +118,8 @@ bool Foam::stepControl::retry()
     ++rejected_;
     patience_ = 3;
     deltaT_ = dt;
-    const scalar told = time_.value() - time_.deltaTValue();
-    time_.setDeltaT(dt, false);
-    time_.setTime(told + dt, time_.timeIndex());
+    static_cast<TimeState&>(time_) = before_;
+    advance(dt);
     return true;
 }
 
@@ -124,9 +157,10 @@ void Foam::stepControl::done(const label iterations, const scalar courant)
 
 bool Foam::stepControl::write() const
 {
-    // OpenFOAM's own decision is of no use with an interval: it is made
-    // before a step, which may then be rejected
     if (writeInterval_ == 0) return time_.writeTime();
+
+    // Asked to stop, by a signal or by a changed controlDict
+    if (time_.stopAt() == Time::stopAtControls::saWriteNow) return true;
 
     const scalar n = std::round(time_.value()/writeInterval_);
     return mag(time_.value() - n*writeInterval_) < 1e-6*time_.deltaTValue();

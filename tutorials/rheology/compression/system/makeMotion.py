@@ -4,7 +4,9 @@
 """Write system/platenDisplacement and system/timeParameters.
 
 The platen moves such that the Hencky strain rate of the cylinder is that of
-system/caseParameters: height H(t) = H0 exp(-rate t). One step is 1 % strain.
+system/caseParameters: height H(t) = H0 exp(-strain(t)), where the strain rises
+at strainRate to its largest value and then falls by unloadStrain at the same
+rate. A negative strain is a tension test.
 """
 
 import math
@@ -12,19 +14,46 @@ import re
 from pathlib import Path
 
 HEIGHT = 0.020  # [m]
-POINTS = 2000  # in the table
+POINTS = 2000  # of the table in each direction
 
-text = Path("system/caseParameters").read_text()
-rate, strain, step = (
-    float(re.search(rf"^{name}\s+([^;]+);", text, re.M).group(1))
-    for name in ("strainRate", "strain", "strainStep")
-)
-end = strain / rate
-with open("system/platenDisplacement", "w") as out:
-    for i in range(POINTS + 1):
-        t = end * i / POINTS
-        x = HEIGHT * math.expm1(-rate * t)
-        out.write(f"({t:.12g} ({x:.15g} 0 0))\n")
-Path("system/timeParameters").write_text(
-    f"endTime {end:.12g};\ndeltaT {step / rate:.12g};\nwriteInterval {end / 5:.12g};\n"
-)
+
+def read(text: str, name: str) -> float:
+    """An entry of a dictionary that is one number."""
+    found = re.search(rf"^{name}\s+([^;]+);", text, re.M)
+    if not found:
+        raise SystemExit(f"system/caseParameters: entry {name} is missing")
+    return float(found.group(1))
+
+
+def main() -> None:
+    """Read system/caseParameters, write the two files."""
+    text = Path("system/caseParameters").read_text()
+    rate = read(text, "strainRate")
+    strain = read(text, "strain")
+    unload = read(text, "unloadStrain")
+    if rate <= 0 or strain == 0 or unload < 0:
+        raise SystemExit(
+            f"system/caseParameters: strainRate {rate}, strain {strain}, "
+            f"unloadStrain {unload}; valid are > 0, not 0 and >= 0"
+        )
+
+    # The strain over the path that the platen has gone, both [-]
+    turn, end = abs(strain), abs(strain) + unload
+    path = [turn * i / POINTS for i in range(POINTS + 1)]
+    if unload:
+        path += [turn + unload * (i + 1) / POINTS for i in range(POINTS)]
+    with open("system/platenDisplacement", "w") as out:
+        for s in path:
+            now = min(s, 2 * turn - s) * math.copysign(1, strain)
+            x = HEIGHT * math.expm1(-now)
+            out.write(f"({s / rate:.12g} ({x:.15g} 0 0))\n")
+
+    Path("system/timeParameters").write_text(
+        f"endTime {end / rate:.12g};\n"
+        f"deltaT {read(text, 'strainStep') / rate:.12g};\n"
+        f"writeInterval {read(text, 'writeStrain') / rate:.12g};\n"
+    )
+
+
+if __name__ == "__main__":
+    main()
