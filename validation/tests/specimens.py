@@ -50,12 +50,7 @@ def replace(path: Path, pattern: str, by: str) -> None:
     path.write_text(text)
 
 
-def bolus_fails(case: Path) -> str:
-    """Run bolusFoam, which must stop with an error; returns its output."""
-    return run(case, "bolusFoam", ok=False)
-
-
-# --- the tutorial -----------------------------------------------------------
+# --- the tutorial ------------------------------------------------------------
 
 
 def prepare_compression(
@@ -128,7 +123,7 @@ def compression(case: Path, *options, material=None, **entries) -> Compression:
     )
 
 
-# --- blocks in a box ----------------------------------------------------------
+# --- blocks in a box ---------------------------------------------------------
 
 
 def box(
@@ -142,10 +137,11 @@ def box(
     material: str = "viscoplastic",
     measured=("x1",),
     damaged: bool = False,
+    thickness: float = 0.01,
 ) -> Mesh:
     """Write a case: a block of bolus in a box, of which walls move.
 
-    size     (x, y) [m] of a plane mesh, 1 m thick, or (x, y, z)
+    size     (x, y) [m] of a plane mesh, or (x, y, z)
     counts   numbers of cells, likewise
     patches  {x0, x1, y0, y1[, z0, z1]: what}, where what is
              "symmetryPlane", "open", or the condition for U of a wall, or
@@ -154,10 +150,11 @@ def box(
     block    size of the block of bolus, from the origin on or ((x0, x1), ...)
              [m], aligned with the cells (None: everything)
     end, step   [s]
+    thickness   of a plane mesh [m]
     measured    patches with a function object force<Patch>: contactForce
     """
     plane = len(size) == 2
-    a, b, c = (*size, 1.0) if plane else size
+    a, b, c = (*size, thickness) if plane else size
     counts = (*counts, 1) if plane else counts
     vertices = [(x, y, z) for z in (0, c) for y in (0, b) for x in (0, a)]
     faces = {
@@ -248,7 +245,12 @@ def box(
         write_field(case, mesh, 0, "D", 1.0)
     for name, cls, dims, rows in (
         ("U", "volVectorField", "[0 1 -1 0 0 0 0]", velocity),
-        ("pointDisplacement", "pointVectorField", "[0 1 0 0 0 0 0]", displacement),
+        (
+            "pointDisplacement",
+            "pointVectorField",
+            "[0 1 0 0 0 0 0]",
+            displacement,
+        ),
     ):
         write_file(
             case / "0" / name,

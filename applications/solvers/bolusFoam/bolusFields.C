@@ -287,12 +287,11 @@ Foam::scalar Foam::bolusFields::damage()
 {
     if (!law_.damage().active()) return 0;
 
-    // Cells half full of void are left out: their pressure is that of a
-    // laminate, not of the material
+    // Also in the cells of the surface: a break must not stop at a skin
     scalar volume = 0;
     forAll(D, c)
     {
-        if (alpha[c] < 0.9 || D[c] > 0.5) continue;
+        if (alpha[c] < 0.1 || D[c] > 0.5) continue;
         const scalar q = elastoViscoPlastic::sigmaEq(deviator[c]);
         if (q < SMALL || !law_.damage().onset(epsilonPEq[c], -p[c]/q)) continue;
         D[c] = 1;

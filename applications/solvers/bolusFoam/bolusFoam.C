@@ -70,6 +70,15 @@ int main(int argc, char* argv[])
     #include "createTime.H"
     petscSession petsc;
 
+    if (!isFile(runTime.path()/runTime.constant()/"polyMesh"/"points")
+     && !isFile(runTime.path()/runTime.constant()/"polyMesh"/"points.gz"))
+    {
+        FatalErrorInFunction
+            << "the case has no mesh: there is no constant/polyMesh/points;"
+            << " make it by blockMesh (in parallel: and decomposePar)"
+            << exit(FatalError);
+    }
+
     autoPtr<dynamicFvMesh> meshPtr
     (
         dynamicFvMesh::New
@@ -106,7 +115,7 @@ int main(int argc, char* argv[])
     (
         fields.state,
         law.elastic().K(),
-        solver.lookupOrDefault<scalar>("inertia", 0) > 0,
+        system.inertia() > 0,
         mesh.solutionDict().subOrEmptyDict("transport")
     );
     stepControl control(runTime);
@@ -160,7 +169,7 @@ int main(int argc, char* argv[])
         fields.damage();
         fields.derive();
 
-        control.done(solved.iterations, moved.courant);
+        control.done(solved.iterations, moved.bulkCourant);
         report.step(solved, moved.courant, moved.subSteps);
 
         if (control.write()) runTime.writeNow();

@@ -4,17 +4,20 @@
 #include "coupledSystem.H"
 #include "contactWallFvPatchVectorField.H"
 #include "emptyPolyPatch.H"
+#include "entryReader.H"
 #include "fvcGrad.H"
 #include "processorPolyPatch.H"
 #include "symmetryPlanePolyPatch.H"
 #include "symmetryPolyPatch.H"
 #include "syncTools.H"
+#include "wallPolyPatch.H"
 #include "wedgePolyPatch.H"
 
 #include <functional>
 
 constexpr Foam::scalar Foam::coupledSystem::U0_;
 constexpr Foam::scalar Foam::coupledSystem::P0_;
+constexpr Foam::scalar Foam::coupledSystem::rate0_;
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
@@ -57,16 +60,17 @@ Foam::coupledSystem::kinds(const volVectorField& U)
               ? nodalSpace::FULL
               : nodalSpace::NORMAL;
         }
-        else if (Up.type() == "zeroGradient")
+        else if (Up.type() == "zeroGradient" && !isA<wallPolyPatch>(pp))
         {
             result[patchi] = nodalSpace::UNCONSTRAINED;
         }
         else
         {
             FatalErrorInFunction
-                << "field U, patch " << pp.name() << ": entry type: "
-                << Up.type() << "; valid are contactWall (a wall with or"
-                << " without friction) and zeroGradient (an open boundary)"
+                << "field U, patch " << pp.name() << " (" << pp.type()
+                << "): entry type: " << Up.type() << "; valid are contactWall"
+                << " (a wall with or without friction) and, where the patch is"
+                << " no wall, zeroGradient (an open boundary)"
                 << exit(FatalError);
         }
     }
@@ -118,6 +122,7 @@ void Foam::coupledSystem::freeze()
     a_.setSize(nCells);
     phi_.setSize(nCells);
     room_.setSize(nCells);
+    weight_.setSize(nCells);
     overfill_.setSize(nCells);
     damaged_.setSize(nCells);
     hourglassEta_.setSize(nCells);
@@ -193,6 +198,8 @@ void Foam::coupledSystem::freeze()
         {
             sharp = 0;
         }
+        weight_[c] =
+            1/(1 + max(phi_[c], 1 - a_[c])*P0_/(void_.zeta()*rate0_));
         const symmTensor interface =
             magN > SMALL ? sqr(n/magN) : symmTensor(Zero);
         const symmTensor otherwise =
@@ -295,16 +302,6 @@ Foam::coupledSystem::coupledSystem
     law_(law),
     void_(voids),
     state_(state),
-    tolerance_(dict.lookupOrDefault<scalar>("tolerance", 1e-6)),
-    maxIterations_(dict.lookupOrDefault<label>("maxIterations", 60)),
-    hourglass_(dict.lookupOrDefault<scalar>("hourglass", 0.05)),
-    smoothing_(dict.lookupOrDefault<scalar>("pressureSmoothing", 0.01)),
-    overfillTime_(dict.lookupOrDefault<scalar>("overfillTime", 0.02)),
-    inertia_(dict.lookupOrDefault<scalar>("inertia", 0)),
-    contactPressure_
-    (
-        dict.lookupOrDefault<scalar>("contactPressure", 50)
-    ),
     space_(mesh_, kinds(state.U)),
     elasticSlip_(state.elasticSlip),
     deltaT_(1),
@@ -312,26 +309,43 @@ Foam::coupledSystem::coupledSystem
     pCell_(mesh_.nCells(), Zero),
     pNeighbour_(mesh_.nFaces() - mesh_.nInternalFaces(), Zero)
 {
-    auto notNegative = [&](const word& name, const scalar v)
-    {
-        if (!(v >= 0))
-        {
-            FatalIOErrorInFunction(dict)
-                << "entry " << name << ": " << v
-                << "; valid are numbers >= 0" << exit(FatalIOError);
-        }
-    };
-    notNegative("hourglass", hourglass_);
-    notNegative("pressureSmoothing", smoothing_);
-    notNegative("inertia", inertia_);
-    notNegative("contactPressure", contactPressure_);
-    if (!(tolerance_ > 0) || !(overfillTime_ > 0) || maxIterations_ < 1)
-    {
-        FatalIOErrorInFunction(dict)
-            << "entries tolerance: " << tolerance_ << ", overfillTime: "
-            << overfillTime_ << ", maxIterations: " << maxIterations_
-            << "; valid are numbers > 0" << exit(FatalIOError);
-    }
+    entryReader read(dict);
+    const entryReader::interval& positive = entryReader::positive;
+    const entryReader::interval& nonNegative = entryReader::nonNegative;
+
+    tolerance_ = read.number
+    (
+        "tolerance", "rms of the scaled residuals [-]", positive, 1e-6
+    );
+    maxIterations_ = label
+    (
+        read.number("maxIterations", "of Newton's method", positive, 60)
+    );
+    hourglass_ = read.number
+    (
+        "hourglass", "hourglass control [-]", nonNegative, 0.05
+    );
+    smoothing_ = read.number
+    (
+        "pressureSmoothing", "against checkerboards [-]", nonNegative, 0.01
+    );
+    overfillTime_ = read.number
+    (
+        "overfillTime", "in which alpha > 1 expands [s]", positive, 0.02
+    );
+    inertia_ = read.number
+    (
+        "inertia", "density scale of inertia [-]", nonNegative, 0
+    );
+    contactPressure_ = read.number
+    (
+        "contactPressure",
+        "below which a wall cell may part from the wall [Pa]",
+        nonNegative,
+        50
+    );
+    read.has("petscOptions");
+    read.rejectOthers();
 
     setContact();
     setPetsc(dict);
@@ -348,6 +362,7 @@ void Foam::coupledSystem::accept
 )
 {
     gather(x_);
+    pLast_ = pCell_;
 
     vectorField& v = state_.pointU.primitiveFieldRef();
     space_.toPoints(q_, v);
@@ -469,20 +484,32 @@ void Foam::coupledSystem::wallForces
     const label nd = space_.nd();
     const label nPoints = mesh_.nPoints();
 
-    // Vectors at the points, in the frame of the node
+    // By components of the node, at the points: force, power, and weight of
+    // the wall faces. A fixed component goes to the faces that look that way
+    // (where walls meet, each then gets its own normal force), a free one to
+    // all by their area.
     vectorField F(nPoints, Zero);
-    scalarField W(nPoints, Zero);
-    scalarField weight(nPoints, Zero);
+    vectorField W(nPoints, Zero);
+    vectorField weight(nPoints, Zero);
     forAll(F, p)
     {
         const label node = space_.pointNode()[p];
         for (label k = 0; k < nd; ++k)
         {
-            const vector& e = space_.basis()[node][k];
-            F[p] += force[nd*node + k]*e;
-            W[p] += rowForce[nd*node + k]*space_.fixedValue(node, k);
+            F[p][k] = force[nd*node + k];
+            W[p][k] = rowForce[nd*node + k]*space_.fixedValue(node, k);
         }
     }
+
+    auto faceWeight = [&](const label facei, const label fp, const label k)
+    {
+        const label p = mesh_.faces()[facei][fp];
+        const vector& a = space_.faceWeight(facei, fp);
+        return
+            k < space_.nFixed()[space_.pointNode()[p]]
+          ? mag(a & space_.shape(p, k))
+          : mag(a);
+    };
 
     auto forWallPoints = [&](std::function<void(label, label, label)> f)
     {
@@ -504,23 +531,25 @@ void Foam::coupledSystem::wallForces
         }
     };
 
-    // Weight of a node: that of all its wall faces
-    scalarField nodeWeight(space_.nNodes(), Zero);
+    vectorField nodeWeight(space_.nNodes(), Zero);
     forWallPoints
     (
         [&](label patchi, label i, label fp)
         {
             const label facei = mesh_.boundaryMesh()[patchi].start() + i;
             const label p = mesh_.faces()[facei][fp];
-            nodeWeight[space_.pointNode()[p]] +=
-                mag(space_.faceWeight(facei, fp));
+            for (label k = 0; k < nd; ++k)
+            {
+                nodeWeight[space_.pointNode()[p]][k] +=
+                    faceWeight(facei, fp, k);
+            }
         }
     );
     forAll(weight, p) weight[p] = nodeWeight[space_.pointNode()[p]];
 
     syncTools::syncPointList(mesh_, F, plusEqOp<vector>(), vector(Zero));
-    syncTools::syncPointList(mesh_, W, plusEqOp<scalar>(), scalar(0));
-    syncTools::syncPointList(mesh_, weight, plusEqOp<scalar>(), scalar(0));
+    syncTools::syncPointList(mesh_, W, plusEqOp<vector>(), vector(Zero));
+    syncTools::syncPointList(mesh_, weight, plusEqOp<vector>(), vector(Zero));
 
     forWallPoints
     (
@@ -528,10 +557,14 @@ void Foam::coupledSystem::wallForces
         {
             const label facei = mesh_.boundaryMesh()[patchi].start() + i;
             const label p = mesh_.faces()[facei][fp];
-            const scalar part =
-                mag(space_.faceWeight(facei, fp))/max(weight[p], VSMALL);
-            wallForce.boundaryFieldRef()[patchi][i] -= part*F[p];
-            wallPower.boundaryFieldRef()[patchi][i] += part*W[p];
+            for (label k = 0; k < nd; ++k)
+            {
+                if (weight[p][k] < VSMALL) continue;
+                const scalar part = faceWeight(facei, fp, k)/weight[p][k];
+                wallForce.boundaryFieldRef()[patchi][i] -=
+                    (part*F[p][k])*space_.basis()[space_.pointNode()[p]][k];
+                wallPower.boundaryFieldRef()[patchi][i] += part*W[p][k];
+            }
         }
     );
 }

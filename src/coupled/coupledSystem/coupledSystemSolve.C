@@ -24,7 +24,11 @@ void Foam::coupledSystem::setPetsc(const dictionary& dict)
         "petscOptions"
     );
 
-    VecCreateMPI(PETSC_COMM_WORLD, nRows, PETSC_DETERMINE, x_.set());
+    petscCheck
+    (
+        VecCreateMPI(PETSC_COMM_WORLD, nRows, PETSC_DETERMINE, x_.set()),
+        "VecCreateMPI"
+    );
     VecSetOption(x_, VEC_IGNORE_NEGATIVE_INDICES, PETSC_TRUE);
     VecDuplicate(x_, f_.set());
 
@@ -39,6 +43,7 @@ void Foam::coupledSystem::setPetsc(const dictionary& dict)
     }
     for (const label r : space_.cellRow()) rows.append(r);
 
+    const PetscInt anyRow = rows[0];
     syncTools::swapBoundaryCellList(mesh_, space_.cellRow(), neighbourRow_);
     for (const polyPatch& pp : mesh_.boundaryMesh())
     {
@@ -47,7 +52,7 @@ void Foam::coupledSystem::setPetsc(const dictionary& dict)
             label& r = neighbourRow_[pp.start() - mesh_.nInternalFaces() + i];
             if (!pp.coupled()) r = -1;
             // Any row will do where there is no neighbour
-            rows.append(r < 0 ? rows[0] : r);
+            rows.append(r < 0 ? anyRow : r);
         }
     }
 
@@ -58,7 +63,11 @@ void Foam::coupledSystem::setPetsc(const dictionary& dict)
         from.set()
     );
     VecCreateSeq(PETSC_COMM_SELF, rows.size(), local_.set());
-    VecScatterCreate(x_, from, local_, nullptr, scatter_.set());
+    petscCheck
+    (
+        VecScatterCreate(x_, from, local_, nullptr, scatter_.set()),
+        "VecScatterCreate"
+    );
 
     preallocate();
 
@@ -186,7 +195,7 @@ void Foam::coupledSystem::assemble(Vec f, Mat* J) const
         }
         cols.append(space_.cellRow()[c]);
         rows.append(cols.last());
-        rowScale.append(1);
+        rowScale.append(weight_[c]);
 
         if (f)
         {
@@ -237,8 +246,8 @@ void Foam::coupledSystem::assemble(Vec f, Mat* J) const
           ? rows[1]
           : neighbourRow_[facei - mesh_.nInternalFaces()]
         };
-        const scalar sP = 1/space_.V()[P];
-        const scalar sN = internal ? 1/space_.V()[N] : 0;
+        const scalar sP = weight_[P]/space_.V()[P];
+        const scalar sN = internal ? weight_[N]/space_.V()[N] : 0;
         if (f)
         {
             const scalar v[2] = {flux*sP, -flux*sN};
@@ -297,7 +306,8 @@ void Foam::coupledSystem::computeNorms(Vec f)
     label where = -1;
     for (label i = 0; i < space_.nRowsOwned(); ++i)
     {
-        (i < nNode ? m2 : c2) += sqr(v[i]);
+        (i < nNode ? m2 : c2) +=
+            sqr(i < nNode ? v[i] : v[i]/weight_[i - nNode]);
         if (mag(v[i]) > largest)
         {
             largest = mag(v[i]);
@@ -420,7 +430,9 @@ const Foam::coupledSystem::report& Foam::coupledSystem::solve
             )/U0_;
         }
     }
-    forAll(pOld_, c) v[i++] = pOld_[c]/P0_;
+    // The pressure stands rather than moves with the bolus where it flows on
+    const scalarField& p = pLast_.size() ? pLast_ : pOld_;
+    forAll(p, c) v[i++] = p[c]/P0_;
     VecRestoreArray(x_, &v);
 
     gather(x_);

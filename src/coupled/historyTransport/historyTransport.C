@@ -2,6 +2,7 @@
 // Copyright (C) 2026 the bolusFoam developers
 
 #include "historyTransport.H"
+#include "entryReader.H"
 #include "leastSquaresVectors.H"
 #include "syncTools.H"
 
@@ -113,32 +114,33 @@ Foam::historyTransport::historyTransport
     mesh_(state.alpha.mesh()),
     state_(state),
     K_(bulkModulus),
-    inertia_(inertia),
-    maxCourant_(dict.lookupOrDefault<scalar>("maxCourant", 0.3)),
-    maxSubSteps_(dict.lookupOrDefault<label>("maxSubSteps", 1000)),
-    maxAlpha_(dict.lookupOrDefault<scalar>("maxAlpha", 1.01))
+    inertia_(inertia)
 {
-    if (!(maxCourant_ > 0) || maxCourant_ > 0.5)
-    {
-        FatalIOErrorInFunction(dict)
-            << "entry maxCourant: " << maxCourant_
-            << "; valid are numbers > 0 and <= 0.5" << exit(FatalIOError);
-    }
-    if (!(maxAlpha_ > 1))
-    {
-        FatalIOErrorInFunction(dict)
-            << "entry maxAlpha: " << maxAlpha_ << "; valid are numbers > 1"
-            << exit(FatalIOError);
-    }
+    entryReader read(dict);
+    maxCourant_ = read.number
+    (
+        "maxCourant", "Courant number of a sub-step [-]", {0, false, 0.5, true}, 0.3
+    );
+    maxSubSteps_ = label
+    (
+        read.number("maxSubSteps", "sub-steps", entryReader::positive, 1000)
+    );
+    maxAlpha_ = read.number
+    (
+        "maxAlpha", "fullest cell of a step [-]", {1, false, GREAT, true}, 1.01
+    );
+    read.rejectOthers();
 }
 
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
-Foam::scalar Foam::historyTransport::courant
+void Foam::historyTransport::courant
 (
     const surfaceScalarField& phiRel,
-    const scalar dt
+    const scalar dt,
+    scalar& largest,
+    scalar& bulk
 ) const
 {
     scalarField out(mesh_.nCells(), Zero);
@@ -157,16 +159,29 @@ Foam::scalar Foam::historyTransport::courant
         }
     }
 
+    // Classes of a twentieth of a decade, from 0.001 to 1000
+    scalarList classes(120, Zero);
     const scalarField& V = mesh_.V();
-    scalar largest = 0;
+    largest = 0;
     forAll(out, c)
     {
         if (state_.mass[c] < 1e-9) continue;
         const scalar Vmin = mesh_.moving() ? min(V[c], mesh_.V0()[c]) : V[c];
-        largest = max(largest, out[c]*dt/Vmin);
+        const scalar Co = out[c]*dt/Vmin;
+        largest = max(largest, Co);
+        const label i =
+            label(std::floor(20*(std::log10(max(Co, scalar(1e-3))) + 3)));
+        classes[min(i, classes.size() - 1)] += state_.mass[c]*V[c];
     }
     reduce(largest, maxOp<scalar>());
-    return largest;
+    Pstream::listCombineGather(classes, plusEqOp<scalar>());
+    Pstream::listCombineScatter(classes);
+
+    const scalar total = sum(classes);
+    scalar above = 0;
+    label i = classes.size() - 1;
+    while (i > 0 && above + classes[i] < 0.01*total) above += classes[i--];
+    bulk = min(largest, std::pow(10.0, (i + 1)/20.0 - 3));
 }
 
 
@@ -182,7 +197,7 @@ Foam::historyTransport::report Foam::historyTransport::advance
     if (mesh_.moving()) phiRel -= mesh_.phi();
 
     report result;
-    result.courant = courant(phiRel, deltaT);
+    courant(phiRel, deltaT, result.courant, result.bulkCourant);
     result.subSteps = max(label(std::ceil(result.courant/maxCourant_)), 1);
     if (result.subSteps > maxSubSteps_)
     {
@@ -231,7 +246,7 @@ Foam::historyTransport::report Foam::historyTransport::advance
 
     scalarField V(V0);
     scalarField low(nFaces), anti(nFaces), F(nFaces);
-    scalarField alphaLow(nCells), Pp(nCells), Pm(nCells), Rp(nCells);
+    scalarField alphaLow(nCells), alphaLeft(nCells), Pp(nCells), Pm(nCells), Rp(nCells);
     scalarField Rm(nCells), out(nCells), mq(nCells);
     vectorField g(nCells);
 
@@ -307,19 +322,23 @@ Foam::historyTransport::report Foam::historyTransport::advance
             anti[f] = phif*(aF - aD);
         }
 
-        // Limit what goes beyond upwinding
+        // Limit what goes beyond upwinding. What leaves a cell may not count
+        // on what comes in, which may be less compressed
         alphaLow = alpha*Vold/V;
+        alphaLeft = alphaLow;
         Pp = 0;
         Pm = 0;
         forAll(flux, f)
         {
             const label P = own[f];
             alphaLow[P] -= low[f]*dt/V[P];
+            alphaLeft[P] -= max(low[f], scalar(0))*dt/V[P];
             (anti[f] > 0 ? Pm : Pp)[P] += mag(anti[f])*dt/V[P];
             if (f < nInternal)
             {
                 const label N = mesh_.neighbour()[f];
                 alphaLow[N] += low[f]*dt/V[N];
+                alphaLeft[N] += min(low[f], scalar(0))*dt/V[N];
                 (anti[f] > 0 ? Pp : Pm)[N] += mag(anti[f])*dt/V[N];
             }
         }
@@ -330,7 +349,7 @@ Foam::historyTransport::report Foam::historyTransport::advance
               ? min(max(1 - alphaLow[c], scalar(0))/Pp[c], scalar(1)) : 1;
             Rm[c] =
                 Pm[c] > VSMALL
-              ? min(max(alphaLow[c], scalar(0))/Pm[c], scalar(1)) : 1;
+              ? min(max(alphaLeft[c], scalar(0))/Pm[c], scalar(1)) : 1;
         }
         const scalarField RpNei(neighbour(Rp));
         const scalarField RmNei(neighbour(Rm));

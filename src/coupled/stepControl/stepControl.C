@@ -9,8 +9,7 @@ namespace Foam
 //- A state of time in which nothing is to be written
 struct quietTimeState : public TimeState
 {
-    quietTimeState(const TimeState& state)
-    :
+    quietTimeState(const TimeState& state) :
         TimeState(state)
     {
         writeTime_ = false;
@@ -20,22 +19,17 @@ struct quietTimeState : public TimeState
 } // End namespace Foam
 
 
-Foam::stepControl::stepControl(Time& time)
-:
+Foam::stepControl::stepControl(Time& time) :
     time_(time),
     before_(time),
-    memory_
-    (
-        IOobject
-        (
-            "stepControl",
-            time.timeName(),
-            "uniform",
-            time,
-            IOobject::READ_IF_PRESENT,
-            IOobject::AUTO_WRITE
-        )
-    ),
+    memory_(IOobject(
+        "stepControl",
+        time.timeName(),
+        "uniform",
+        time,
+        IOobject::READ_IF_PRESENT,
+        IOobject::AUTO_WRITE
+    )),
     patience_(memory_.lookupOrDefault<label>("patience", 0)),
     steps_(memory_.lookupOrDefault<label>("steps", 0)),
     rejected_(memory_.lookupOrDefault<label>("rejected", 0)),
@@ -43,11 +37,29 @@ Foam::stepControl::stepControl(Time& time)
     writeInterval_(0)
 {
     const dictionary& dict = time.controlDict();
+
+    // Others read this dictionary too: only what looks like one of ours can be
+    // told to be misspelt
+    const wordList own(
+        {"maxDeltaT", "minDeltaT", "maxCourant", "easyIterations"}
+    );
+    for (const word& key : dict.toc())
+    {
+        const word begin(key.substr(0, 3));
+        const bool similar = begin == "max" || begin == "min" || begin == "eas";
+        if (similar && !own.found(key))
+        {
+            FatalIOErrorInFunction(dict)
+                << "entry " << key << " is not known; valid are " << own
+                << exit(FatalIOError);
+        }
+    }
+
     deltaT_ =
         memory_.lookupOrDefault<scalar>("deltaT", dict.get<scalar>("deltaT"));
     maxDeltaT_ = dict.lookupOrDefault<scalar>("maxDeltaT", 0.05);
     minDeltaT_ = dict.lookupOrDefault<scalar>("minDeltaT", 1e-5);
-    maxCourant_ = dict.lookupOrDefault<scalar>("maxCourant", 2);
+    maxCourant_ = dict.lookupOrDefault<scalar>("maxCourant", 1);
     easyIterations_ = dict.lookupOrDefault<label>("easyIterations", 8);
 
     auto positive = [&](const word& name, const scalar v)
@@ -63,6 +75,14 @@ Foam::stepControl::stepControl(Time& time)
     positive("maxDeltaT", maxDeltaT_);
     positive("minDeltaT", minDeltaT_);
     positive("maxCourant", maxCourant_);
+    positive("easyIterations", easyIterations_);
+    if (minDeltaT_ > maxDeltaT_)
+    {
+        FatalIOErrorInFunction(dict)
+            << "entry minDeltaT: " << minDeltaT_
+            << " s; valid are numbers up to"
+            << " maxDeltaT, " << maxDeltaT_ << " s" << exit(FatalIOError);
+    }
 
     const word control(dict.get<word>("writeControl"));
     if (control == "adjustableRunTime" || control == "adjustable")
@@ -97,13 +117,12 @@ void Foam::stepControl::start()
     scalar toEvent = time_.endTime().value() - time_.value();
     if (writeInterval_ > 0)
     {
-        const scalar n =
-            std::floor(time_.value()/writeInterval_ + 1e-6) + 1;
-        toEvent = min(toEvent, n*writeInterval_ - time_.value());
+        const scalar n = std::floor(time_.value() / writeInterval_ + 1e-6) + 1;
+        toEvent = min(toEvent, n * writeInterval_ - time_.value());
     }
-    if (toEvent > 1e-9*dt)
+    if (toEvent > 1e-9 * dt)
     {
-        dt = toEvent/std::ceil(toEvent/dt - 1e-6);
+        dt = toEvent / std::ceil(toEvent / dt - 1e-6);
     }
     before_ = time_;
     advance(dt);
@@ -112,7 +131,7 @@ void Foam::stepControl::start()
 
 bool Foam::stepControl::retry()
 {
-    const scalar dt = 0.4*time_.deltaTValue();
+    const scalar dt = 0.4 * time_.deltaTValue();
     if (dt < minDeltaT_) return false;
 
     ++rejected_;
@@ -136,15 +155,15 @@ void Foam::stepControl::done(const label iterations, const scalar courant)
     }
     else if (iterations <= easyIterations_)
     {
-        deltaT_ = min(1.3*max(deltaT_, dt), maxDeltaT_);
+        deltaT_ = min(1.3 * max(deltaT_, dt), maxDeltaT_);
     }
-    else if (iterations > 2*easyIterations_)
+    else if (iterations > 2 * easyIterations_)
     {
-        deltaT_ = max(0.7*dt, minDeltaT_);
+        deltaT_ = max(0.7 * dt, minDeltaT_);
     }
     if (courant > SMALL)
     {
-        deltaT_ = min(deltaT_, max(dt*maxCourant_/courant, minDeltaT_));
+        deltaT_ = min(deltaT_, max(dt * maxCourant_ / courant, minDeltaT_));
     }
 
     memory_.set("deltaT", deltaT_);
@@ -162,8 +181,8 @@ bool Foam::stepControl::write() const
     // Asked to stop, by a signal or by a changed controlDict
     if (time_.stopAt() == Time::stopAtControls::saWriteNow) return true;
 
-    const scalar n = std::round(time_.value()/writeInterval_);
-    return mag(time_.value() - n*writeInterval_) < 1e-6*time_.deltaTValue();
+    const scalar n = std::round(time_.value() / writeInterval_);
+    return mag(time_.value() - n * writeInterval_) < 1e-6 * time_.deltaTValue();
 }
 
 // ************************************************************************* //

@@ -22,7 +22,10 @@ def parameter(name: str) -> float:
 def main():
     """Read the tables of the run, draw, and print the plateau."""
     rate, largest = parameter("strainRate"), parameter("strain")
-    force, surface = read_table(".", "contactForce"), read_table(".", "freeSurface")
+    force, surface = (
+        read_table(".", "contactForce"),
+        read_table(".", "freeSurface"),
+    )
 
     path = rate * force.time
     strain = np.minimum(path, 2 * abs(largest) - path) * np.sign(largest)
