@@ -105,11 +105,9 @@ class Compression:
         self.stress = self.force / self.section
         self.steps = read_table(case, "solver", "steps")
 
-    def at(self, path: float) -> int:
-        """The row where the platen has gone this path [-]."""
-        row = int(np.argmin(abs(self.path - path)))
-        assert abs(self.path[row] - path) < 1e-6
-        return row
+    def at(self, name: str, path: float) -> float:
+        """A column where the platen has gone this path [-]."""
+        return float(np.interp(path, self.path, getattr(self, name)))
 
 
 def compression(case: Path, *options, material=None, **entries) -> Compression:

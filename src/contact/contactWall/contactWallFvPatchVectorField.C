@@ -31,6 +31,20 @@ Foam::contactWallFvPatchVectorField::contactWallFvPatchVectorField
     friction_(frictionLaw::New(dict)),
     separation_(dict.lookupOrDefault("separation", true))
 {
+    const wordList valid
+    (
+        {"type", "patchType", "friction", "separation", "value"}
+    );
+    for (const entry& e : dict)
+    {
+        if (!valid.found(e.keyword()))
+        {
+            FatalIOErrorInFunction(dict)
+                << "entry " << e.keyword() << ": unknown on a contactWall;"
+                << " valid are " << valid << exit(FatalIOError);
+        }
+    }
+
     if (dict.found("value"))
     {
         fvPatchVectorField::operator=(vectorField("value", dict, p.size()));

@@ -194,7 +194,7 @@ void Foam::coupledSystem::freeze()
           ? 1
           : void_.opening(alpha[c])*(alpha[c] < 0.5 ? 1 : sharp);
         const vector& nw = space_.cellWallNormal()[c];
-        if (atWall && (nw & state_.stress[c] & nw) > -contactPressure_)
+        if (atWall && (nw & state_.stress[c] & nw) > partingTension_)
         {
             sharp = 0;
         }
@@ -337,13 +337,15 @@ Foam::coupledSystem::coupledSystem
     (
         "inertia", "density scale of inertia [-]", nonNegative, 0
     );
-    contactPressure_ = read.number
+    partingTension_ = read.number
     (
-        "contactPressure",
-        "below which a wall cell may part from the wall [Pa]",
+        "partingTension",
+        "tension at which a wall cell parts from the wall [Pa]",
         nonNegative,
         50
     );
+    monitor_ = dict.lookupOrDefault("monitor", false);
+    read.has("monitor");
     read.has("petscOptions");
     read.rejectOthers();
 
@@ -506,7 +508,7 @@ void Foam::coupledSystem::wallForces
         const label p = mesh_.faces()[facei][fp];
         const vector& a = space_.faceWeight(facei, fp);
         return
-            k < space_.nFixed()[space_.pointNode()[p]]
+            k < space_.nNormals()[space_.pointNode()[p]]
           ? mag(a & space_.shape(p, k))
           : mag(a);
     };

@@ -286,6 +286,8 @@ void Foam::nodalSpace::setConstraints(const scalar deltaT)
         }
     };
 
+    boolList full(nNodes, false);
+
     // Points on the axis of a wedge stay there
     if (wedge_)
     {
@@ -326,14 +328,19 @@ void Foam::nodalSpace::setConstraints(const scalar deltaT)
             if (magSqr(nodeNormal[n]) > 0)
             {
                 constrain(n, nodeNormal[n]);
-                if (kind == FULL)
-                {
-                    constrain(n, e1_);
-                    constrain(n, e2_);
-                    if (nd_ == 3) constrain(n, e3_);
-                }
+                if (kind == FULL) full[n] = true;
             }
         }
+    }
+    nNormals_ = nFixed_;
+    forAll(full, n)
+    {
+        if (!full[n]) continue;
+        constrain(n, e1_);
+        constrain(n, e2_);
+        if (nd_ == 3) constrain(n, e3_);
+        // The remainder of a direction may have been too short to count
+        if (nFixed_[n] < nd_) constrain(n, e1_ + e2_ + e3_);
     }
 
     // Complete the bases
