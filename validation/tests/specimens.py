@@ -54,9 +54,17 @@ def replace(path: Path, pattern: str, by: str) -> None:
 
 
 def prepare_compression(
-    case: Path, material: str | None = None, **entries
+    case: Path,
+    material: str = "viscoplastic",
+    void: str = "",
+    solver: str = "",
+    **entries,
 ) -> Path:
-    """A copy of the tutorial with these entries of caseParameters, meshed."""
+    """A copy of the tutorial with these entries of caseParameters, meshed.
+
+    void, solver    entries of the sub-dictionaries void of bolusProperties
+                    and bolus of fvSolution
+    """
     shutil.copytree(
         TUTORIAL,
         case,
@@ -70,11 +78,16 @@ def prepare_compression(
             rf"\n{name}\s[^;]*;",
             f"\n{name} {number};",
         )
-    if material:
-        write_file(
-            case / "constant" / "bolusProperties",
-            f'#include "{COMMON}/bolusProperties.{material}"\n',
-        )
+    write_file(
+        case / "constant" / "bolusProperties",
+        f'#include "{COMMON}/bolusProperties.{material}"\n'
+        + (f"void {{ {void} }}\n" if void else ""),
+    )
+    replace(
+        case / "system" / "fvSolution",
+        r"\nbolus \{\}",
+        f"\nbolus {{ {solver} }}" if solver else "\nbolus {}",
+    )
     run(case, "python", "system/makeMotion.py")
     run(case, "blockMesh")
     run(case, "setAlphaField")
@@ -110,9 +123,9 @@ class Compression:
         return float(np.interp(path, self.path, getattr(self, name)))
 
 
-def compression(case: Path, *options, material=None, **entries) -> Compression:
+def compression(case: Path, *options, **entries) -> Compression:
     """Run the tutorial with these entries, bolusFoam with these options."""
-    prepare_compression(case, material, **entries)
+    prepare_compression(case, **entries)
     (case / "log.bolusFoam").write_text(run(case, "bolusFoam", *options))
     return Compression(
         case,

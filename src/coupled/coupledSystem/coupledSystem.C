@@ -305,6 +305,7 @@ Foam::coupledSystem::coupledSystem
     space_(mesh_, kinds(state.U)),
     elasticSlip_(state.elasticSlip),
     deltaT_(1),
+    secant_(true),
     q_(space_.nd()*space_.nNodes(), Zero),
     pCell_(mesh_.nCells(), Zero),
     pNeighbour_(mesh_.nFaces() - mesh_.nInternalFaces(), Zero)
@@ -342,7 +343,7 @@ Foam::coupledSystem::coupledSystem
         "partingTension",
         "tension at which a wall cell parts from the wall [Pa]",
         nonNegative,
-        50
+        0.1
     );
     monitor_ = dict.lookupOrDefault("monitor", false);
     read.has("monitor");

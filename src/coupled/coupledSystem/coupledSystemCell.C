@@ -268,7 +268,7 @@ void Foam::coupledSystem::assembleCell
         // From slip to stick the tangent throws the face far to the other
         // side; the secant leads there safely. The tangent is for faces that
         // have found their slip, and for those that begin to slip.
-        if (k.change > 0.3*slip) dslip = 0;
+        if (secant_ && k.change > 0.3*slip) dslip = 0;
 
         forAll(f, fp)
         {

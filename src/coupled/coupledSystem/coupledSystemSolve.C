@@ -16,10 +16,9 @@ void Foam::coupledSystem::setPetsc(const dictionary& dict)
         " -bolus_ksp_type preonly -bolus_pc_type lu"
         " -bolus_pc_factor_mat_solver_type mumps"
         " -bolus_mat_mumps_icntl_14 80"
-        // Approximate minimum degree, no scaling (the rows are scaled): the
-        // fastest of MUMPS's orderings for some ten thousand unknowns
-        " -bolus_mat_mumps_icntl_7 6 -bolus_mat_mumps_icntl_8 0"
-        " -bolus_mat_mumps_icntl_6 0 "
+        // Quasi-dense approximate minimum degree: the fastest of MUMPS's
+        // orderings for some ten thousand unknowns
+        " -bolus_mat_mumps_icntl_7 6 "
     );
     options += dict.lookupOrDefault<string>("petscOptions", "");
     petscCheck
@@ -447,14 +446,23 @@ const Foam::coupledSystem::report& Foam::coupledSystem::solve
 
     gather(x_);
     qLast_ = q_;
-    petscCheck(SNESSolve(snes_, nullptr, x_), "SNESSolve");
-
+    // The secant of friction (see assembleCell) may lead uphill; then the
+    // tangent takes over from there, and so on
     SNESConvergedReason reason;
     PetscInt iterations;
-    SNESGetConvergedReason(snes_, &reason);
-    SNESGetIterationNumber(snes_, &iterations);
+    report_.iterations = 0;
+    secant_ = true;
+    for (label attempt = 0; attempt < 4; ++attempt)
+    {
+        const trapsOff noTraps;
+        petscCheck(SNESSolve(snes_, nullptr, x_), "SNESSolve");
+        SNESGetConvergedReason(snes_, &reason);
+        SNESGetIterationNumber(snes_, &iterations);
+        report_.iterations += iterations;
+        if (reason != SNES_DIVERGED_LINE_SEARCH) break;
+        secant_ = !secant_;
+    }
     report_.converged = reason > 0;
-    report_.iterations = iterations;
     report_.reason = SNESConvergedReasons[reason];
     return report_;
 }

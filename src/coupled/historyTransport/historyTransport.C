@@ -242,6 +242,10 @@ Foam::historyTransport::report Foam::historyTransport::advance
     pack();
     scalarField& m = state_.mass.primitiveFieldRef();
     scalarField& alpha = state_.alpha.primitiveFieldRef();
+
+    // The solution has changed the pressure, and with it the volume
+    forAll(alpha, c) alpha[c] = m[c]*std::exp(-q_[0][c]/K_);
+
     scalarField total(nFaces, Zero);
 
     scalarField V(V0);

@@ -9,8 +9,8 @@ Foam::voidLaw::voidLaw(const dictionary& dict)
     entryReader read(dict);
     const entryReader::interval& positive = entryReader::positive;
 
-    zeta_ = read.number("zeta", "volumetric viscosity [Pa s]", positive, 100);
-    eta_ = read.number("eta", "shear viscosity [Pa s]", positive, 10);
+    zeta_ = read.number("zeta", "volumetric viscosity [Pa s]", positive, 20);
+    eta_ = read.number("eta", "shear viscosity [Pa s]", positive, 1);
     etaDamaged_ = read.number
     (
         "etaDamaged", "shear viscosity of damaged bolus [Pa s]", positive, 20
@@ -31,7 +31,7 @@ Foam::voidLaw::voidLaw(const dictionary& dict)
     );
     delta_ = read.number
     (
-        "delta", "rounding of the contact's corner [Pa]", positive, 20
+        "delta", "rounding of the contact's corner [Pa]", positive, 2
     );
     read.rejectOthers();
 }

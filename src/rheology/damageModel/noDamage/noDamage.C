@@ -24,6 +24,11 @@ Foam::damageModels::noDamage::noDamage(const dictionary& dict)
 {
     entryReader read(dict);
     read.has("type");
+
+    // So that damage is switched off by its type alone
+    read.has("epsilonPEq0");
+    read.has("eta0");
+    read.has("residualStrength");
     read.rejectOthers();
 }
 
