@@ -9,17 +9,14 @@ namespace Foam
 
 //- A field that is read if it is there, at its value without load otherwise
 template<class Type>
-static GeometricField<Type, fvPatchField, volMesh> field
-(
+static GeometricField<Type, fvPatchField, volMesh> field(
     const fvMesh& mesh,
     const word& name,
     const dimensioned<Type>& value
 )
 {
-    return GeometricField<Type, fvPatchField, volMesh>
-    (
-        IOobject
-        (
+    return GeometricField<Type, fvPatchField, volMesh>(
+        IOobject(
             name,
             mesh.time().timeName(),
             mesh,
@@ -34,17 +31,14 @@ static GeometricField<Type, fvPatchField, volMesh> field
 
 //- A field of boundary values
 template<class Type>
-static GeometricField<Type, fvPatchField, volMesh> boundaryField
-(
+static GeometricField<Type, fvPatchField, volMesh> boundaryField(
     const fvMesh& mesh,
     const word& name,
     const dimensionSet& dims
 )
 {
-    return GeometricField<Type, fvPatchField, volMesh>
-    (
-        IOobject
-        (
+    return GeometricField<Type, fvPatchField, volMesh>(
+        IOobject(
             name,
             mesh.time().timeName(),
             mesh,
@@ -59,8 +53,7 @@ static GeometricField<Type, fvPatchField, volMesh> boundaryField
 
 static IOobject mustRead(const fvMesh& mesh, const word& name)
 {
-    return IOobject
-    (
+    return IOobject(
         name,
         mesh.time().timeName(),
         mesh,
@@ -71,8 +64,7 @@ static IOobject mustRead(const fvMesh& mesh, const word& name)
 
 static IOobject transient(const fvMesh& mesh, const word& name)
 {
-    return IOobject
-    (
+    return IOobject(
         name,
         mesh.time().timeName(),
         mesh,
@@ -84,40 +76,30 @@ static IOobject transient(const fvMesh& mesh, const word& name)
 } // End namespace Foam
 
 
-Foam::bolusFields::bolusFields
-(
+Foam::bolusFields::bolusFields(
     const fvMesh& mesh,
     const elastoViscoPlastic& law
-)
-:
+) :
     mesh_(mesh),
     law_(law),
     alpha(mustRead(mesh, "alpha"), mesh),
     U(mustRead(mesh, "U"), mesh),
     p(field<scalar>(mesh, "p", dimensionedScalar("p", dimPressure, 0.0))),
     mass(field<scalar>(mesh, "mass", dimensionedScalar("m", dimless, -1.0))),
-    deviator
-    (
-        field<symmTensor>
-        (
+    deviator(
+        field<symmTensor>(
             mesh,
             "deviator",
             dimensionedSymmTensor("s", dimPressure, Zero)
         )
     ),
-    epsilonPEq
-    (
-        field<scalar>
-        (
-            mesh, "epsilonPEq", dimensionedScalar("e", dimless, 0.0)
-        )
+    epsilonPEq(
+        field<scalar>(mesh, "epsilonPEq", dimensionedScalar("e", dimless, 0.0))
     ),
     D(field<scalar>(mesh, "D", dimensionedScalar("D", dimless, 0.0))),
     theta(field<scalar>(mesh, "theta", dimensionedScalar("t", dimless, 1.0))),
-    pointU
-    (
-        IOobject
-        (
+    pointU(
+        IOobject(
             "pointU",
             mesh.time().timeName(),
             mesh,
@@ -127,42 +109,27 @@ Foam::bolusFields::bolusFields
         pointMesh::New(mesh),
         dimensionedVector("U", dimVelocity, Zero)
     ),
-    stress
-    (
-        field<symmTensor>
-        (
+    stress(
+        field<symmTensor>(
             mesh,
             "stress",
             dimensionedSymmTensor("s", dimPressure, Zero)
         )
     ),
-    sigmaEq
-    (
-        field<scalar>
-        (
-            mesh, "sigmaEq", dimensionedScalar("s", dimPressure, 0.0)
-        )
+    sigmaEq(
+        field<scalar>(mesh, "sigmaEq", dimensionedScalar("s", dimPressure, 0.0))
     ),
-    triaxiality
-    (
-        field<scalar>
-        (
-            mesh, "triaxiality", dimensionedScalar("t", dimless, 0.0)
-        )
+    triaxiality(
+        field<scalar>(mesh, "triaxiality", dimensionedScalar("t", dimless, 0.0))
     ),
     elasticSlip(boundaryField<vector>(mesh, "elasticSlip", dimLength)),
     wallForce(boundaryField<vector>(mesh, "wallForce", dimForce)),
     wallPower(boundaryField<scalar>(mesh, "wallPower", dimPower)),
-    phi
-    (
-        transient(mesh, "phi"),
+    phi(transient(mesh, "phi"),
         mesh,
-        dimensionedScalar("phi", dimVolume/dimTime, 0.0)
-    ),
-    phiRel
-    (
-        IOobject
-        (
+        dimensionedScalar("phi", dimVolume / dimTime, 0.0)),
+    phiRel(
+        IOobject(
             "phiRel",
             mesh.time().timeName(),
             mesh,
@@ -170,17 +137,27 @@ Foam::bolusFields::bolusFields
             IOobject::AUTO_WRITE
         ),
         mesh,
-        dimensionedScalar("phi", dimVolume/dimTime, 0.0)
+        dimensionedScalar("phi", dimVolume / dimTime, 0.0)
     ),
-    massFlux
-    (
+    massFlux(
         transient(mesh, "massFlux"),
         mesh,
-        dimensionedScalar("massFlux", dimVolume/dimTime, 0.0)
+        dimensionedScalar("massFlux", dimVolume / dimTime, 0.0)
     ),
-    state
-    {
-        alpha, mass, U, p, deviator, epsilonPEq, D, theta, pointU, elasticSlip, stress, phiRel}
+    state{
+        alpha,
+        mass,
+        U,
+        p,
+        deviator,
+        epsilonPEq,
+        D,
+        theta,
+        pointU,
+        elasticSlip,
+        stress,
+        phiRel
+    }
 {
     if (min(alpha).value() < -0.01 || max(alpha).value() > 1.1)
     {
@@ -191,10 +168,8 @@ Foam::bolusFields::bolusFields
     }
     if (min(mass).value() < 0)
     {
-        mass = alpha*exp
-        (
-            p/dimensionedScalar("K", dimPressure, law.elastic().K())
-        );
+        mass = alpha
+            * exp(p / dimensionedScalar("K", dimPressure, law.elastic().K()));
     }
     mass.correctBoundaryConditions();
     derive();
@@ -204,8 +179,7 @@ Foam::bolusFields::bolusFields
 template<class Operation>
 void Foam::bolusFields::forState(const Operation& op)
 {
-    volScalarField* scalars[] =
-        {&alpha, &mass, &p, &epsilonPEq, &D, &theta};
+    volScalarField* scalars[] = {&alpha, &mass, &p, &epsilonPEq, &D, &theta};
     volVectorField* vectors[] = {&U, &elasticSlip};
     volSymmTensorField* tensors[] = {&deviator, &stress};
     surfaceScalarField* fluxes[] = {&phiRel};
@@ -274,8 +248,7 @@ void Foam::bolusFields::derive()
         const bool bolus = alpha[c] > 0.5;
         sigmaEq[c] =
             bolus ? elastoViscoPlastic::sigmaEq(deviator[c]) : scalar(0);
-        triaxiality[c] =
-            bolus && sigmaEq[c] > SMALL ? -p[c]/sigmaEq[c] : 0;
+        triaxiality[c] = bolus && sigmaEq[c] > SMALL ? -p[c] / sigmaEq[c] : 0;
     }
     sigmaEq.correctBoundaryConditions();
     triaxiality.correctBoundaryConditions();
@@ -293,9 +266,10 @@ Foam::scalar Foam::bolusFields::damage()
     {
         if (alpha[c] < 0.1 || D[c] > 0.5) continue;
         const scalar q = elastoViscoPlastic::sigmaEq(deviator[c]);
-        if (q < SMALL || !law_.damage().onset(epsilonPEq[c], -p[c]/q)) continue;
+        if (q < SMALL || !law_.damage().onset(epsilonPEq[c], -p[c] / q))
+            continue;
         D[c] = 1;
-        volume += mass[c]*mesh_.V()[c];
+        volume += mass[c] * mesh_.V()[c];
     }
     D.correctBoundaryConditions();
     reduce(volume, sumOp<scalar>());
@@ -305,7 +279,7 @@ Foam::scalar Foam::bolusFields::damage()
 
 Foam::scalar Foam::bolusFields::totalMass() const
 {
-    return gSum(mass.primitiveField()*mesh_.V().field());
+    return gSum(mass.primitiveField() * mesh_.V().field());
 }
 
 // ************************************************************************* //

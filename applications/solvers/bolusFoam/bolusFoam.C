@@ -35,8 +35,7 @@ Usage
 using namespace Foam;
 
 //- The step cannot be made short enough
-static void giveUp
-(
+static void giveUp(
     const Time& runTime,
     const stepControl& control,
     const coupledSystem::report& solved
@@ -55,13 +54,11 @@ static void giveUp
 
 int main(int argc, char* argv[])
 {
-    argList::addNote
-    (
+    argList::addNote(
         "Solid bolus in a moving lumen: elastoviscoplastic VOF with damage,"
         " velocity and pressure coupled"
     );
-    argList::addBoolOption
-    (
+    argList::addBoolOption(
         "checkTangent",
         "compare the tangent with finite differences after each step"
     );
@@ -70,8 +67,10 @@ int main(int argc, char* argv[])
     #include "createTime.H"
     petscSession petsc;
 
-    if (!isFile(runTime.path()/runTime.constant()/"polyMesh"/"points")
-     && !isFile(runTime.path()/runTime.constant()/"polyMesh"/"points.gz"))
+    if (!isFile(runTime.path() / runTime.constant() / "polyMesh" / "points")
+        && !isFile(
+            runTime.path() / runTime.constant() / "polyMesh" / "points.gz"
+        ))
     {
         FatalErrorInFunction
             << "the case has no mesh: there is no constant/polyMesh/points;"
@@ -79,40 +78,30 @@ int main(int argc, char* argv[])
             << exit(FatalError);
     }
 
-    autoPtr<dynamicFvMesh> meshPtr
-    (
-        dynamicFvMesh::New
-        (
-            IOobject
-            (
-                dynamicFvMesh::defaultRegion,
-                runTime.timeName(),
-                runTime,
-                IOobject::MUST_READ
-            )
-        )
+    autoPtr<dynamicFvMesh> meshPtr(
+        dynamicFvMesh::New(IOobject(
+            dynamicFvMesh::defaultRegion,
+            runTime.timeName(),
+            runTime,
+            IOobject::MUST_READ
+        ))
     );
     dynamicFvMesh& mesh = meshPtr();
 
-    const IOdictionary properties
-    (
-        IOobject
-        (
-            "bolusProperties",
-            runTime.constant(),
-            mesh,
-            IOobject::MUST_READ,
-            IOobject::NO_WRITE
-        )
-    );
+    const IOdictionary properties(IOobject(
+        "bolusProperties",
+        runTime.constant(),
+        mesh,
+        IOobject::MUST_READ,
+        IOobject::NO_WRITE
+    ));
     const elastoViscoPlastic law(properties);
     const voidLaw voids(properties.subOrEmptyDict("void"));
     const dictionary& solver = mesh.solutionDict().subOrEmptyDict("bolus");
 
     bolusFields fields(mesh, law);
     coupledSystem system(law, voids, fields.state, solver);
-    historyTransport transport
-    (
+    historyTransport transport(
         fields.state,
         law.elastic().K(),
         system.inertia() > 0,
@@ -121,7 +110,7 @@ int main(int argc, char* argv[])
     stepControl control(runTime);
     progress report(runTime, fields, control);
 
-    Info<< "Starting at t = " << runTime.value() << " s" << nl << endl;
+    Info << "Starting at t = " << runTime.value() << " s" << nl << endl;
 
     while (runTime.run())
     {
@@ -138,25 +127,24 @@ int main(int argc, char* argv[])
 
             if (!solved.converged)
             {
-                Info<< "t " << runTime.value() << " s, dt "
-                    << runTime.deltaTValue() << " s: not converged ("
-                    << solved.reason << ", stress imbalance "
-                    << solved.momentum << ", volume rate "
-                    << solved.continuity << ", worst at " << solved.worst
-                    << "): shorter step" << endl;
+                Info << "t " << runTime.value() << " s, dt "
+                     << runTime.deltaTValue() << " s: not converged ("
+                     << solved.reason << ", stress imbalance "
+                     << solved.momentum << ", volume rate " << solved.continuity
+                     << ", worst at " << solved.worst << "): shorter step"
+                     << endl;
                 if (!control.retry()) giveUp(runTime, control, solved);
                 continue;
             }
 
             if (args.found("checkTangent"))
             {
-                Info<< "Tangent against finite differences: "
-                    << system.checkTangent(runTime.deltaTValue()) << endl;
+                Info << "Tangent against finite differences: "
+                     << system.checkTangent(runTime.deltaTValue()) << endl;
             }
 
             system.accept(fields.phi, fields.wallForce, fields.wallPower);
-            moved = transport.advance
-            (
+            moved = transport.advance(
                 fields.phi, runTime.deltaTValue(), fields.massFlux
             );
 
@@ -176,7 +164,7 @@ int main(int argc, char* argv[])
     }
 
     report.summary();
-    Info<< "End" << nl << endl;
+    Info << "End" << nl << endl;
 
     return 0;
 }

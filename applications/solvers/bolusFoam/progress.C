@@ -6,30 +6,24 @@
 
 #include <iomanip>
 
-Foam::progress::progress
-(
+Foam::progress::progress(
     const Time& time,
     const bolusFields& fields,
     const stepControl& control
-)
-:
+) :
     time_(time),
     fields_(fields),
     control_(control),
     lastLine_(-GREAT),
     startTime_(time.value()),
-    books_
-    (
-        IOobject
-        (
-            "bolusBooks",
-            time.timeName(),
-            "uniform",
-            time,
-            IOobject::READ_IF_PRESENT,
-            IOobject::AUTO_WRITE
-        )
-    ),
+    books_(IOobject(
+        "bolusBooks",
+        time.timeName(),
+        "uniform",
+        time,
+        IOobject::READ_IF_PRESENT,
+        IOobject::AUTO_WRITE
+    )),
     initial_(books_.lookupOrDefault<scalar>("initial", fields.totalMass())),
     emptied_(books_.lookupOrDefault<scalar>("emptied", 0)),
     alphaMin_(GREAT),
@@ -48,24 +42,21 @@ Foam::progress::progress
 
     if (Pstream::master())
     {
-        const fileName dir
-        (
-            time.globalPath()/"postProcessing"/"solver"/time.timeName()
+        const fileName dir(
+            time.globalPath() / "postProcessing" / "solver" / time.timeName()
         );
         mkDir(dir);
-        file_.reset(new OFstream(dir/"steps.dat"));
-        file_()
-            << "# time [s]" << tab << "deltaT [s]" << tab
-            << "NewtonIterations [-]" << tab << "rejected [-]" << tab
-            << "courant [-]" << tab << "subSteps [-]" << tab
-            << "massError [-]" << tab << "alphaMin [-]" << tab
-            << "alphaMax [-]" << tab << "cpuTime [s]" << endl;
+        file_.reset(new OFstream(dir / "steps.dat"));
+        file_() << "# time [s]" << tab << "deltaT [s]" << tab
+                << "NewtonIterations [-]" << tab << "rejected [-]" << tab
+                << "courant [-]" << tab << "subSteps [-]" << tab
+                << "massError [-]" << tab << "alphaMin [-]" << tab
+                << "alphaMax [-]" << tab << "cpuTime [s]" << endl;
     }
 }
 
 
-void Foam::progress::step
-(
+void Foam::progress::step(
     const coupledSystem::report& solved,
     const scalar courant,
     const label subSteps
@@ -77,10 +68,10 @@ void Foam::progress::step
         if (!F.coupled()) out += sum(F);
     }
     reduce(out, sumOp<scalar>());
-    emptied_ += out*time_.deltaTValue();
+    emptied_ += out * time_.deltaTValue();
     books_.set("emptied", emptied_);
 
-    massError_ = (fields_.totalMass() + emptied_ - initial_)/initial_;
+    massError_ = (fields_.totalMass() + emptied_ - initial_) / initial_;
     const scalar low = gMin(fields_.alpha.primitiveField());
     const scalar high = gMax(fields_.alpha.primitiveField());
     alphaMin_ = min(alphaMin_, low);
@@ -88,52 +79,57 @@ void Foam::progress::step
 
     if (file_.valid())
     {
-        file_()
-            << time_.value() << tab << time_.deltaTValue() << tab
-            << solved.iterations << tab << control_.rejected() << tab
-            << courant << tab << subSteps << tab << massError_ << tab
-            << low << tab << high << tab << time_.elapsedCpuTime() << endl;
+        file_() << time_.value() << tab << time_.deltaTValue() << tab
+                << solved.iterations << tab << control_.rejected() << tab
+                << courant << tab << subSteps << tab << massError_ << tab << low
+                << tab << high << tab << time_.elapsedCpuTime() << endl;
     }
 
     // Not time_.run(), which would execute the function objects
     const bool last =
-        time_.value() >= time_.endTime().value() - 0.5*time_.deltaTValue();
+        time_.value() >= time_.endTime().value() - 0.5 * time_.deltaTValue();
     const scalar now = clock_.elapsedTime();
     if (now - lastLine_ < 1 && !last) return;
     lastLine_ = now;
 
     const scalar done = time_.value() - startTime_;
     const scalar left =
-        now*(time_.endTime().value() - time_.value())/max(done, VSMALL);
+        now * (time_.endTime().value() - time_.value()) / max(done, VSMALL);
 
     char line[256];
-    snprintf
-    (
-        line, sizeof(line),
+    snprintf(
+        line,
+        sizeof(line),
         "t %9.5f s  dt %8.2e  Newton %2d  Co %6.2f  rejected %d  "
         "mass error %9.2e  alpha %9.2e..1%+8.1e  left %d:%02d min",
-        time_.value(), time_.deltaTValue(), int(solved.iterations), courant,
-        int(control_.rejected()), massError_, low, high - 1,
-        int(left)/60, int(left) % 60
+        time_.value(),
+        time_.deltaTValue(),
+        int(solved.iterations),
+        courant,
+        int(control_.rejected()),
+        massError_,
+        low,
+        high - 1,
+        int(left) / 60,
+        int(left) % 60
     );
-    Info<< line << endl;
+    Info << line << endl;
 }
 
 
 void Foam::progress::summary() const
 {
-    Info<< nl << "Summary" << nl
-        << "    end time         " << time_.value() << " s" << nl
-        << "    cells            "
-        << returnReduce(fields_.alpha.mesh().nCells(), sumOp<label>()) << nl
-        << "    cores            " << Pstream::nProcs() << nl
-        << "    steps            " << control_.steps() << nl
-        << "    rejected steps   " << control_.rejected() << nl
-        << "    Newton iterations " << control_.iterations() << nl
-        << "    mass error       " << massError_ << nl
-        << "    alpha            " << alphaMin_ << " to " << alphaMax_ << nl
-        << "    clock time       " << clock_.elapsedTime() << " s" << nl
-        << endl;
+    Info << nl << "Summary" << nl << "    end time         " << time_.value()
+         << " s" << nl << "    cells            "
+         << returnReduce(fields_.alpha.mesh().nCells(), sumOp<label>()) << nl
+         << "    cores            " << Pstream::nProcs() << nl
+         << "    steps            " << control_.steps() << nl
+         << "    rejected steps   " << control_.rejected() << nl
+         << "    Newton iterations " << control_.iterations() << nl
+         << "    mass error       " << massError_ << nl
+         << "    alpha            " << alphaMin_ << " to " << alphaMax_ << nl
+         << "    clock time       " << clock_.elapsedTime() << " s" << nl
+         << endl;
 }
 
 // ************************************************************************* //

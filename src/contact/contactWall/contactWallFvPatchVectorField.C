@@ -8,31 +8,26 @@
 
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
-Foam::contactWallFvPatchVectorField::contactWallFvPatchVectorField
-(
+Foam::contactWallFvPatchVectorField::contactWallFvPatchVectorField(
     const fvPatch& p,
     const DimensionedField<vector, volMesh>& iF
-)
-:
+) :
     fixedValueFvPatchVectorField(p, iF),
     separation_(true)
 {}
 
 
-Foam::contactWallFvPatchVectorField::contactWallFvPatchVectorField
-(
+Foam::contactWallFvPatchVectorField::contactWallFvPatchVectorField(
     const fvPatch& p,
     const DimensionedField<vector, volMesh>& iF,
     const dictionary& dict
-)
-:
+) :
     fixedValueFvPatchVectorField(p, iF, dict, false),
     dict_(dict),
     friction_(frictionLaw::New(dict)),
     separation_(dict.lookupOrDefault("separation", true))
 {
-    const wordList valid
-    (
+    const wordList valid(
         {"type", "patchType", "friction", "separation", "value"}
     );
     for (const entry& e : dict)
@@ -56,14 +51,12 @@ Foam::contactWallFvPatchVectorField::contactWallFvPatchVectorField
 }
 
 
-Foam::contactWallFvPatchVectorField::contactWallFvPatchVectorField
-(
+Foam::contactWallFvPatchVectorField::contactWallFvPatchVectorField(
     const contactWallFvPatchVectorField& ptf,
     const fvPatch& p,
     const DimensionedField<vector, volMesh>& iF,
     const fvPatchFieldMapper& mapper
-)
-:
+) :
     fixedValueFvPatchVectorField(ptf, p, iF, mapper),
     dict_(ptf.dict_),
     separation_(ptf.separation_)
@@ -72,12 +65,10 @@ Foam::contactWallFvPatchVectorField::contactWallFvPatchVectorField
 }
 
 
-Foam::contactWallFvPatchVectorField::contactWallFvPatchVectorField
-(
+Foam::contactWallFvPatchVectorField::contactWallFvPatchVectorField(
     const contactWallFvPatchVectorField& ptf,
     const DimensionedField<vector, volMesh>& iF
-)
-:
+) :
     fixedValueFvPatchVectorField(ptf, iF),
     dict_(ptf.dict_),
     separation_(ptf.separation_)
@@ -88,8 +79,7 @@ Foam::contactWallFvPatchVectorField::contactWallFvPatchVectorField
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
-const Foam::frictionLaw&
-Foam::contactWallFvPatchVectorField::friction() const
+const Foam::frictionLaw& Foam::contactWallFvPatchVectorField::friction() const
 {
     if (!friction_.valid())
     {
@@ -114,7 +104,8 @@ void Foam::contactWallFvPatchVectorField::updateCoeffs()
         vectorField v(size());
         forAll(v, i)
         {
-            v[i] = (pp[i].centre(pp.points()) - pp[i].centre(oldPoints))/deltaT;
+            v[i] =
+                (pp[i].centre(pp.points()) - pp[i].centre(oldPoints)) / deltaT;
         }
         operator==(v);
     }
@@ -135,7 +126,7 @@ void Foam::contactWallFvPatchVectorField::write(Ostream& os) const
 
 namespace Foam
 {
-    makePatchTypeField(fvPatchVectorField, contactWallFvPatchVectorField);
+makePatchTypeField(fvPatchVectorField, contactWallFvPatchVectorField);
 }
 
 // ************************************************************************* //

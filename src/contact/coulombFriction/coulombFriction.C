@@ -6,13 +6,12 @@
 
 namespace Foam
 {
-    defineTypeNameAndDebug(coulombFriction, 0);
-    addToRunTimeSelectionTable(frictionLaw, coulombFriction, dictionary);
+defineTypeNameAndDebug(coulombFriction, 0);
+addToRunTimeSelectionTable(frictionLaw, coulombFriction, dictionary);
 }
 
 
-Foam::coulombFriction::coulombFriction(const dictionary& dict)
-:
+Foam::coulombFriction::coulombFriction(const dictionary& dict) :
     mu_(dict.get<scalar>("mu")),
     g0_(dict.lookupOrDefault<scalar>("elasticSlip", 1e-5))
 {
@@ -31,8 +30,7 @@ Foam::coulombFriction::coulombFriction(const dictionary& dict)
 }
 
 
-void Foam::coulombFriction::factor
-(
+void Foam::coulombFriction::factor(
     const scalar pn,
     const scalar slip,
     scalar& f,
@@ -40,9 +38,9 @@ void Foam::coulombFriction::factor
     scalar& dfdslip
 ) const
 {
-    dfdpn = mu_/max(slip, g0_);
-    f = dfdpn*pn;
-    dfdslip = slip > g0_ ? -f/slip : 0;
+    dfdpn = mu_ / max(slip, g0_);
+    f = dfdpn * pn;
+    dfdslip = slip > g0_ ? -f / slip : 0;
 }
 
 

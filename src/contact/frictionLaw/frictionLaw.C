@@ -5,8 +5,8 @@
 
 namespace Foam
 {
-    defineTypeNameAndDebug(frictionLaw, 0);
-    defineRunTimeSelectionTable(frictionLaw, dictionary);
+defineTypeNameAndDebug(frictionLaw, 0);
+defineRunTimeSelectionTable(frictionLaw, dictionary);
 }
 
 
@@ -19,8 +19,8 @@ Foam::autoPtr<Foam::frictionLaw> Foam::frictionLaw::New(const dictionary& dict)
     if (!cstrIter.found())
     {
         FatalIOErrorInFunction(friction)
-            << "entry type: unknown friction law " << type
-            << "; valid are " << dictionaryConstructorTablePtr_->sortedToc()
+            << "entry type: unknown friction law " << type << "; valid are "
+            << dictionaryConstructorTablePtr_->sortedToc()
             << exit(FatalIOError);
     }
     return cstrIter()(friction);

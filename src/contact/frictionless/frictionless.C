@@ -6,8 +6,8 @@
 
 namespace Foam
 {
-    defineTypeNameAndDebug(frictionless, 0);
-    addToRunTimeSelectionTable(frictionLaw, frictionless, dictionary);
+defineTypeNameAndDebug(frictionless, 0);
+addToRunTimeSelectionTable(frictionLaw, frictionless, dictionary);
 }
 
 // ************************************************************************* //

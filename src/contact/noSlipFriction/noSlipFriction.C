@@ -6,8 +6,8 @@
 
 namespace Foam
 {
-    defineTypeNameAndDebug(noSlipFriction, 0);
-    addToRunTimeSelectionTable(frictionLaw, noSlipFriction, dictionary);
+defineTypeNameAndDebug(noSlipFriction, 0);
+addToRunTimeSelectionTable(frictionLaw, noSlipFriction, dictionary);
 }
 
 // ************************************************************************* //

@@ -21,8 +21,9 @@ constexpr Foam::scalar Foam::coupledSystem::rate0_;
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-Foam::List<Foam::nodalSpace::patchKind>
-Foam::coupledSystem::kinds(const volVectorField& U)
+Foam::List<Foam::nodalSpace::patchKind> Foam::coupledSystem::kinds(
+    const volVectorField& U
+)
 {
     const polyBoundaryMesh& bm = U.mesh().boundaryMesh();
     List<nodalSpace::patchKind> result(bm.size());
@@ -32,12 +33,8 @@ Foam::coupledSystem::kinds(const volVectorField& U)
         const polyPatch& pp = bm[patchi];
         const fvPatchVectorField& Up = U.boundaryField()[patchi];
 
-        if
-        (
-            isA<wedgePolyPatch>(pp)
-         || isA<emptyPolyPatch>(pp)
-         || isA<processorPolyPatch>(pp)
-        )
+        if (isA<wedgePolyPatch>(pp) || isA<emptyPolyPatch>(pp)
+            || isA<processorPolyPatch>(pp))
         {
             result[patchi] = nodalSpace::SLICE;
         }
@@ -54,11 +51,11 @@ Foam::coupledSystem::kinds(const volVectorField& U)
         }
         else if (isA<contactWallFvPatchVectorField>(Up))
         {
-            result[patchi] =
-                refCast<const contactWallFvPatchVectorField>(Up)
-               .friction().sticks()
-              ? nodalSpace::FULL
-              : nodalSpace::NORMAL;
+            result[patchi] = refCast<const contactWallFvPatchVectorField>(Up)
+                                 .friction()
+                                 .sticks()
+                ? nodalSpace::FULL
+                : nodalSpace::NORMAL;
         }
         else if (Up.type() == "zeroGradient" && !isA<wallPolyPatch>(pp))
         {
@@ -136,7 +133,7 @@ void Foam::coupledSystem::freeze()
     {
         auto add = [&](const label c, const scalar out, const scalar alphaN)
         {
-            if (out < 0) inflow[c] -= out*max(alphaN - alpha[c], scalar(0));
+            if (out < 0) inflow[c] -= out * max(alphaN - alpha[c], scalar(0));
         };
         const surfaceScalarField& phi = state_.phiRel;
         const labelUList& own = mesh_.owner();
@@ -150,18 +147,14 @@ void Foam::coupledSystem::freeze()
         {
             const fvPatch& patch = mesh_.boundary()[patchi];
             if (!patch.coupled()) continue;
-            const scalarField alphaN
-            (
+            const scalarField alphaN(
                 alpha.boundaryField()[patchi].patchNeighbourField()
             );
             forAll(patch, i)
             {
-                add
-                (
-                    patch.faceCells()[i],
+                add(patch.faceCells()[i],
                     phi.boundaryField()[patchi][i],
-                    alphaN[i]
-                );
+                    alphaN[i]);
             }
         }
     }
@@ -174,49 +167,40 @@ void Foam::coupledSystem::freeze()
         const scalar a = min(max(alpha[c], scalar(0)), scalar(1));
         a_[c] = a < 1e-6 ? 0 : a;
         damaged_[c] = state_.D[c] > 0.5;
-        room_[c] = max
-        (
-            1 - a_[c] - inflow[c]*deltaT_/space_.V()[c],
-            0.05*(1 - a_[c])
-        );
-        overfill_[c] = 0.5*max(alpha[c] - 1, scalar(0))/overfillTime_;
+        room_[c] =
+            max(1 - a_[c] - inflow[c] * deltaT_ / space_.V()[c],
+                0.05 * (1 - a_[c]));
+        overfill_[c] = 0.5 * max(alpha[c] - 1, scalar(0)) / overfillTime_;
 
         const bool atWall =
             separates_[c] && magSqr(space_.cellWallNormal()[c]) > 0;
         // Interface where alpha varies over the cell by more than a fifth
         vector n = gradAlpha[c];
-        if (space_.nd() == 2) n -= (n & space_.normal())*space_.normal();
+        if (space_.nd() == 2) n -= (n & space_.normal()) * space_.normal();
         const scalar magN = mag(n);
-        const scalar h = space_.cellSize(c, n/max(magN, VSMALL));
-        scalar sharp = min(magN*h/0.2, scalar(1));
-        phi_[c] =
-            damaged_[c] || atWall
-          ? 1
-          : void_.opening(alpha[c])*(alpha[c] < 0.5 ? 1 : sharp);
+        const scalar h = space_.cellSize(c, n / max(magN, VSMALL));
+        scalar sharp = min(magN * h / 0.2, scalar(1));
+        phi_[c] = damaged_[c] || atWall
+            ? 1
+            : void_.opening(alpha[c]) * (alpha[c] < 0.5 ? 1 : sharp);
         const vector& nw = space_.cellWallNormal()[c];
         if (atWall && (nw & state_.stress[c] & nw) > partingTension_)
         {
             sharp = 0;
         }
         weight_[c] =
-            1/(1 + max(phi_[c], 1 - a_[c])*P0_/(void_.zeta()*rate0_));
+            1 / (1 + max(phi_[c], 1 - a_[c]) * P0_ / (void_.zeta() * rate0_));
         const symmTensor interface =
-            magN > SMALL ? sqr(n/magN) : symmTensor(Zero);
+            magN > SMALL ? sqr(n / magN) : symmTensor(Zero);
         const symmTensor otherwise =
-            atWall
-          ? sqr(nw)
-          : symmTensor((1.0/3.0)*symmTensor::I);
-        N_[c] = sharp*interface + (1 - sharp)*otherwise;
+            atWall ? sqr(nw) : symmTensor((1.0 / 3.0) * symmTensor::I);
+        N_[c] = sharp * interface + (1 - sharp) * otherwise;
 
-        eta_[c] =
-            (1 - a_[c])*void_.eta()
-          + (damaged_[c] ? a_[c]*void_.etaDamaged() : 0);
-        hourglassEta_[c] =
-            hourglass_
-           *(
-                eta_[c]
-              + a_[c]*max(state_.theta[c], scalar(1e-3))*G*deltaT_
-            );
+        eta_[c] = (1 - a_[c]) * void_.eta()
+            + (damaged_[c] ? a_[c] * void_.etaDamaged() : 0);
+        hourglassEta_[c] = hourglass_
+            * (eta_[c]
+                + a_[c] * max(state_.theta[c], scalar(1e-3)) * G * deltaT_);
     }
 
     // Pressure smoothing between cells full of bolus
@@ -227,23 +211,25 @@ void Foam::coupledSystem::freeze()
     if (smoothing_ > 0)
     {
         const volVectorField gradP(fvc::grad(state_.p));
-        auto set = [&]
-        (
-            const label facei, const scalar S, const vector& d,
-            const scalar aP, const scalar aN,
-            const scalar etaP, const scalar etaN,
-            const vector& gP, const vector& gN
-        )
+        auto set = [&](const label facei,
+                       const scalar S,
+                       const vector& d,
+                       const scalar aP,
+                       const scalar aN,
+                       const scalar etaP,
+                       const scalar etaN,
+                       const vector& gP,
+                       const vector& gN)
         {
             if (min(aP, aN) < 0.9) return;
-            const scalar eta = 2/(1/etaP + 1/etaN);
-            beta_[facei] = smoothing_*S*mag(d)/(2*eta);
-            smooth_[facei] = -0.5*((gP + gN) & d);
+            const scalar eta = 2 / (1 / etaP + 1 / etaN);
+            beta_[facei] = smoothing_ * S * mag(d) / (2 * eta);
+            smooth_[facei] = -0.5 * ((gP + gN) & d);
         };
 
-        const volScalarField eta
-        (
-            max(state_.theta, dimensionedScalar("t", dimless, 1e-3))*G*deltaT_
+        const volScalarField eta(
+            max(state_.theta, dimensionedScalar("t", dimless, 1e-3)) * G
+            * deltaT_
         );
         const surfaceScalarField& magSf = mesh_.magSf();
         const volVectorField& C = mesh_.C();
@@ -251,37 +237,42 @@ void Foam::coupledSystem::freeze()
         {
             const label P = mesh_.faceOwner()[f];
             const label N = mesh_.faceNeighbour()[f];
-            set
-            (
-                f, magSf[f], C[N] - C[P], alpha[P], alpha[N],
-                eta[P], eta[N], gradP[P], gradP[N]
-            );
+            set(f,
+                magSf[f],
+                C[N] - C[P],
+                alpha[P],
+                alpha[N],
+                eta[P],
+                eta[N],
+                gradP[P],
+                gradP[N]);
         }
         forAll(mesh_.boundary(), patchi)
         {
             const fvPatch& patch = mesh_.boundary()[patchi];
             if (!patch.coupled()) continue;
             const vectorField d(patch.delta());
-            const scalarField aN
-            (
+            const scalarField aN(
                 alpha.boundaryField()[patchi].patchNeighbourField()
             );
-            const scalarField etaN
-            (
+            const scalarField etaN(
                 eta.boundaryField()[patchi].patchNeighbourField()
             );
-            const vectorField gN
-            (
+            const vectorField gN(
                 gradP.boundaryField()[patchi].patchNeighbourField()
             );
             forAll(patch, i)
             {
                 const label P = patch.faceCells()[i];
-                set
-                (
-                    patch.start() + i, patch.magSf()[i], d[i], alpha[P], aN[i],
-                    eta[P], etaN[i], gradP[P], gN[i]
-                );
+                set(patch.start() + i,
+                    patch.magSf()[i],
+                    d[i],
+                    alpha[P],
+                    aN[i],
+                    eta[P],
+                    etaN[i],
+                    gradP[P],
+                    gN[i]);
             }
         }
     }
@@ -290,14 +281,12 @@ void Foam::coupledSystem::freeze()
 
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
-Foam::coupledSystem::coupledSystem
-(
+Foam::coupledSystem::coupledSystem(
     const elastoViscoPlastic& law,
     const voidLaw& voids,
     bolusState& state,
     const dictionary& dict
-)
-:
+) :
     mesh_(state.alpha.mesh()),
     law_(law),
     void_(voids),
@@ -306,7 +295,7 @@ Foam::coupledSystem::coupledSystem
     elasticSlip_(state.elasticSlip),
     deltaT_(1),
     secant_(true),
-    q_(space_.nd()*space_.nNodes(), Zero),
+    q_(space_.nd() * space_.nNodes(), Zero),
     pCell_(mesh_.nCells(), Zero),
     pNeighbour_(mesh_.nFaces() - mesh_.nInternalFaces(), Zero)
 {
@@ -314,32 +303,22 @@ Foam::coupledSystem::coupledSystem
     const entryReader::interval& positive = entryReader::positive;
     const entryReader::interval& nonNegative = entryReader::nonNegative;
 
-    tolerance_ = read.number
-    (
+    tolerance_ = read.number(
         "tolerance", "rms of the scaled residuals [-]", positive, 1e-6
     );
-    maxIterations_ = label
-    (
-        read.number("maxIterations", "of Newton's method", positive, 60)
-    );
-    hourglass_ = read.number
-    (
-        "hourglass", "hourglass control [-]", nonNegative, 0.05
-    );
-    smoothing_ = read.number
-    (
+    maxIterations_ =
+        label(read.number("maxIterations", "of Newton's method", positive, 60));
+    hourglass_ =
+        read.number("hourglass", "hourglass control [-]", nonNegative, 0.05);
+    smoothing_ = read.number(
         "pressureSmoothing", "against checkerboards [-]", nonNegative, 0.01
     );
-    overfillTime_ = read.number
-    (
+    overfillTime_ = read.number(
         "overfillTime", "in which alpha > 1 expands [s]", positive, 0.02
     );
-    inertia_ = read.number
-    (
-        "inertia", "density scale of inertia [-]", nonNegative, 0
-    );
-    partingTension_ = read.number
-    (
+    inertia_ =
+        read.number("inertia", "density scale of inertia [-]", nonNegative, 0);
+    partingTension_ = read.number(
         "partingTension",
         "tension at which a wall cell parts from the wall [Pa]",
         nonNegative,
@@ -357,8 +336,7 @@ Foam::coupledSystem::coupledSystem
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
-void Foam::coupledSystem::accept
-(
+void Foam::coupledSystem::accept(
     surfaceScalarField& phi,
     volVectorField& wallForce,
     volScalarField& wallPower
@@ -378,19 +356,17 @@ void Foam::coupledSystem::accept
         const label P = mesh_.faceOwner()[facei];
         if (facei < mesh_.nInternalFaces())
         {
-            phi[facei] +=
-                beta_[facei]
-               *(pCell_[P] - pCell_[mesh_.faceNeighbour()[facei]]
-               - smooth_[facei]);
+            phi[facei] += beta_[facei]
+                * (pCell_[P] - pCell_[mesh_.faceNeighbour()[facei]]
+                    - smooth_[facei]);
         }
         else
         {
             const label patchi = mesh_.boundaryMesh().whichPatch(facei);
             const label i = facei - mesh_.boundaryMesh()[patchi].start();
-            phi.boundaryFieldRef()[patchi][i] +=
-                beta_[facei]
-               *(pCell_[P] - pNeighbour_[facei - mesh_.nInternalFaces()]
-               - smooth_[facei]);
+            phi.boundaryFieldRef()[patchi][i] += beta_[facei]
+                * (pCell_[P] - pNeighbour_[facei - mesh_.nInternalFaces()]
+                    - smooth_[facei]);
         }
     }
 
@@ -411,8 +387,8 @@ void Foam::coupledSystem::accept
             const label j = space_.cellStart()[c] + i;
             const label dof = space_.cellDofs()[j];
             rowForce[dof] += R[i];
-            force[dof] +=
-                R[i] + r.P*(space_.V()[c]*tr(space_.G()[j]) - space_.h()[j]);
+            force[dof] += R[i]
+                + r.P * (space_.V()[c] * tr(space_.G()[j]) - space_.h()[j]);
         }
         pressure[c] = r.P;
 
@@ -424,11 +400,11 @@ void Foam::coupledSystem::accept
             contact k;
             elasticSlip_.boundaryFieldRef()[patchi][i] =
                 evaluateContact(c, fi, r, k)
-              ? k.law->retained(mag(k.slip))*k.slip
-              : vector(Zero);
+                ? k.law->retained(mag(k.slip)) * k.slip
+                : vector(Zero);
         }
 
-        state_.stress[c] = r.dev + r.P*symmTensor::I;
+        state_.stress[c] = r.dev + r.P * symmTensor::I;
 
         const labelList& pts = mesh_.cellPoints()[c];
         vector U = Zero;
@@ -438,7 +414,7 @@ void Foam::coupledSystem::accept
         {
             // The mean over the two sides has lost the cosine of the radius
             const vector& e2 = space_.radial();
-            U += (1/std::cos(0.5*space_.wedgeAngle()) - 1)*(U & e2)*e2;
+            U += (1 / std::cos(0.5 * space_.wedgeAngle()) - 1) * (U & e2) * e2;
         }
         state_.U[c] = U;
 
@@ -462,13 +438,16 @@ void Foam::coupledSystem::accept
         P == scalarField(P.size(), Zero);
 
         // Power of the wall pressure: the wall sweeps the cell's volume
-        if (!isA<contactWallFvPatchVectorField>(state_.U.boundaryField()[patchi])
-         || !mesh_.moving()) continue;
+        if (!isA<contactWallFvPatchVectorField>(
+                state_.U.boundaryField()[patchi]
+            )
+            || !mesh_.moving())
+            continue;
         scalarField power(P.size());
         forAll(power, i)
         {
             power[i] =
-                pressure[cells[i]]*mesh_.phi().boundaryField()[patchi][i];
+                pressure[cells[i]] * mesh_.phi().boundaryField()[patchi][i];
         }
         P == power;
     }
@@ -476,8 +455,7 @@ void Foam::coupledSystem::accept
 }
 
 
-void Foam::coupledSystem::wallForces
-(
+void Foam::coupledSystem::wallForces(
     const scalarField& force,
     const scalarField& rowForce,
     volVectorField& wallForce,
@@ -499,8 +477,8 @@ void Foam::coupledSystem::wallForces
         const label node = space_.pointNode()[p];
         for (label k = 0; k < nd; ++k)
         {
-            F[p][k] = force[nd*node + k];
-            W[p][k] = rowForce[nd*node + k]*space_.fixedValue(node, k);
+            F[p][k] = force[nd * node + k];
+            W[p][k] = rowForce[nd * node + k] * space_.fixedValue(node, k);
         }
     }
 
@@ -508,23 +486,19 @@ void Foam::coupledSystem::wallForces
     {
         const label p = mesh_.faces()[facei][fp];
         const vector& a = space_.faceWeight(facei, fp);
-        return
-            k < space_.nNormals()[space_.pointNode()[p]]
-          ? mag(a & space_.shape(p, k))
-          : mag(a);
+        return k < space_.nNormals()[space_.pointNode()[p]]
+            ? mag(a & space_.shape(p, k))
+            : mag(a);
     };
 
     auto forWallPoints = [&](std::function<void(label, label, label)> f)
     {
         forAll(mesh_.boundary(), patchi)
         {
-            if
-            (
-                !isA<contactWallFvPatchVectorField>
-                (
+            if (!isA<contactWallFvPatchVectorField>(
                     state_.U.boundaryField()[patchi]
-                )
-            ) continue;
+                ))
+                continue;
 
             const polyPatch& pp = mesh_.boundaryMesh()[patchi];
             forAll(pp, i)
@@ -535,8 +509,7 @@ void Foam::coupledSystem::wallForces
     };
 
     vectorField nodeWeight(space_.nNodes(), Zero);
-    forWallPoints
-    (
+    forWallPoints(
         [&](label patchi, label i, label fp)
         {
             const label facei = mesh_.boundaryMesh()[patchi].start() + i;
@@ -554,8 +527,7 @@ void Foam::coupledSystem::wallForces
     syncTools::syncPointList(mesh_, W, plusEqOp<vector>(), vector(Zero));
     syncTools::syncPointList(mesh_, weight, plusEqOp<vector>(), vector(Zero));
 
-    forWallPoints
-    (
+    forWallPoints(
         [&](label patchi, label i, label fp)
         {
             const label facei = mesh_.boundaryMesh()[patchi].start() + i;
@@ -563,10 +535,10 @@ void Foam::coupledSystem::wallForces
             for (label k = 0; k < nd; ++k)
             {
                 if (weight[p][k] < VSMALL) continue;
-                const scalar part = faceWeight(facei, fp, k)/weight[p][k];
+                const scalar part = faceWeight(facei, fp, k) / weight[p][k];
                 wallForce.boundaryFieldRef()[patchi][i] -=
-                    (part*F[p][k])*space_.basis()[space_.pointNode()[p]][k];
-                wallPower.boundaryFieldRef()[patchi][i] += part*W[p][k];
+                    (part * F[p][k]) * space_.basis()[space_.pointNode()[p]][k];
+                wallPower.boundaryFieldRef()[patchi][i] += part * W[p][k];
             }
         }
     );

@@ -16,21 +16,20 @@ void Foam::coupledSystem::evaluate(const label c, cellResult& r) const
     for (label i = start; i < end; ++i)
     {
         const scalar q = q_[space_.cellDofs()[i]];
-        r.gradU += q*space_.G()[i];
-        div += q*space_.h()[i];
+        r.gradU += q * space_.G()[i];
+        div += q * space_.h()[i];
     }
     div /= space_.V()[c];
 
     const scalar a = a_[c];
     const scalar p = pCell_[c];
-    const scalar dilation = -(p - pOld_[c])/(K*deltaT_);
-    const scalar growth = div - a*dilation - overfill_[c];
+    const scalar dilation = -(p - pOld_[c]) / (K * deltaT_);
+    const scalar growth = div - a * dilation - overfill_[c];
 
     if (a > SMALL)
     {
-        law_.update
-        (
-            r.gradU - growth*tensor(N_[c]),
+        law_.update(
+            r.gradU - growth * tensor(N_[c]),
             deltaT_,
             state_.deviator[c],
             state_.epsilonPEq[c],
@@ -48,31 +47,28 @@ void Foam::coupledSystem::evaluate(const label c, cellResult& r) const
     void_.rate(r.pv, a, room_[c], phi_[c], deltaT_, rate, r.drdpv);
     r.residual = growth + rate;
 
-    r.P = -(a*p + (1 - a)*r.pv);
-    r.dev = a*r.r.s + (2*eta_[c])*dev(symm(r.gradU));
+    r.P = -(a * p + (1 - a) * r.pv);
+    r.dev = a * r.r.s + (2 * eta_[c]) * dev(symm(r.gradU));
 }
 
 
 Foam::scalar Foam::coupledSystem::pointMass(const label c) const
 {
-    return
-        inertia_ > 0
-      ? inertia_*law_.rho()*state_.mass[c]*space_.V()[c]
-       /mesh_.cellPoints()[c].size()
-      : 0;
+    return inertia_ > 0 ? inertia_ * law_.rho() * state_.mass[c] * space_.V()[c]
+            / mesh_.cellPoints()[c].size()
+                        : 0;
 }
 
 
 Foam::label Foam::coupledSystem::slot(const label c, const label node) const
 {
     label s = space_.cellStart()[c];
-    while (space_.cellDofs()[s] != space_.nd()*node) s += space_.nd();
+    while (space_.cellDofs()[s] != space_.nd() * node) s += space_.nd();
     return s - space_.cellStart()[c];
 }
 
 
-void Foam::coupledSystem::internalForce
-(
+void Foam::coupledSystem::internalForce(
     const label c,
     const cellResult& r,
     DynamicList<scalar>& R
@@ -84,19 +80,18 @@ void Foam::coupledSystem::internalForce
     const scalar V = space_.V()[c];
 
     const scalar* H = &space_.hourglass()[space_.hourglassStart()[c]];
-    const scalar kappa = hourglassEta_[c]*space_.hourglassScale()[c];
+    const scalar kappa = hourglassEta_[c] * space_.hourglassScale()[c];
 
     R.setSize(n);
     for (label i = 0; i < n; ++i)
     {
-        R[i] =
-            V*(r.dev && symm(space_.G()[start + i]))
-          + r.P*space_.h()[start + i];
-        for (label j = 0; j < n; ++j) R[i] += kappa*H[i*n + j]*q_[dof[j]];
+        R[i] = V * (r.dev && symm(space_.G()[start + i]))
+            + r.P * space_.h()[start + i];
+        for (label j = 0; j < n; ++j) R[i] += kappa * H[i * n + j] * q_[dof[j]];
     }
 
     // Inertia: the points share the cell's mass
-    const scalar m = pointMass(c)/deltaT_;
+    const scalar m = pointMass(c) / deltaT_;
     if (m > 0)
     {
         for (const label p : mesh_.cellPoints()[c])
@@ -105,15 +100,14 @@ void Foam::coupledSystem::internalForce
             for (label k = 0; k < space_.nd(); ++k)
             {
                 R[s + k] +=
-                    m*(q_[dof[s + k]] - (UOld_[c] & space_.shape(p, k)));
+                    m * (q_[dof[s + k]] - (UOld_[c] & space_.shape(p, k)));
             }
         }
     }
 }
 
 
-bool Foam::coupledSystem::evaluateContact
-(
+bool Foam::coupledSystem::evaluateContact(
     const label c,
     const label fi,
     const cellResult& r,
@@ -121,7 +115,7 @@ bool Foam::coupledSystem::evaluateContact
 ) const
 {
     // The void does not rub
-    k.grip = min(max((a_[c] - 0.05)/0.45, scalar(0)), scalar(1));
+    k.grip = min(max((a_[c] - 0.05) / 0.45, scalar(0)), scalar(1));
     if (k.grip == 0) return false;
 
     const label facei = contactFaces_[c][fi];
@@ -130,7 +124,7 @@ bool Foam::coupledSystem::evaluateContact
 
     k.n = Zero;
     forAll(f, fp) k.n += space_.faceWeight(facei, fp);
-    if (space_.nd() == 2) k.n -= (k.n & space_.normal())*space_.normal();
+    if (space_.nd() == 2) k.n -= (k.n & space_.normal()) * space_.normal();
     k.n /= mag(k.n);
 
     k.pn = -((k.n & r.dev & k.n) + r.P);
@@ -148,29 +142,28 @@ bool Foam::coupledSystem::evaluateContact
         k.area += k.weight[fp];
         for (label i = space_.nFixed()[node]; i < space_.nd(); ++i)
         {
-            const label dof = space_.nd()*node + i;
+            const label dof = space_.nd() * node + i;
             const vector& e = space_.basis()[node][i];
-            v += k.weight[fp]*(q_[dof] - space_.fixedValue(node, i))*e;
-            vLast += k.weight[fp]*(qLast_[dof] - q_[dof])*e;
+            v += k.weight[fp] * (q_[dof] - space_.fixedValue(node, i)) * e;
+            vLast += k.weight[fp] * (qLast_[dof] - q_[dof]) * e;
         }
     }
-    v -= (v & k.n)*k.n;
+    v -= (v & k.n) * k.n;
 
     // What the contact remembers, turned with the wall
     const label i = facei - mesh_.boundaryMesh()[patchi].start();
     vector g = elasticSlip_.boundaryField()[patchi][i];
     const scalar magG = mag(g);
-    g -= (g & k.n)*k.n;
-    if (mag(g) > VSMALL) g *= magG/mag(g);
+    g -= (g & k.n) * k.n;
+    if (mag(g) > VSMALL) g *= magG / mag(g);
 
-    k.slip = g + (deltaT_/k.area)*v;
-    k.change = deltaT_/k.area*mag(vLast);
+    k.slip = g + (deltaT_ / k.area) * v;
+    k.change = deltaT_ / k.area * mag(vLast);
     return true;
 }
 
 
-void Foam::coupledSystem::assembleCell
-(
+void Foam::coupledSystem::assembleCell(
     const label c,
     DynamicList<scalar>& R,
     scalarField* J
@@ -199,31 +192,31 @@ void Foam::coupledSystem::assembleCell
     scalarList dPv;
     if (J)
     {
-        J->setSize((n + 1)*(n + 1));
+        J->setSize((n + 1) * (n + 1));
         dDev.setSize(n + 1);
         dP.setSize(n + 1);
         dPv.setSize(n + 1);
         for (label j = 0; j <= n; ++j)
         {
             const bool isP = j == n;
-            const scalar dGrowth = isP ? a/(K*deltaT_) : h[j]/V;
+            const scalar dGrowth = isP ? a / (K * deltaT_) : h[j] / V;
             const tensor dGrad = isP ? tensor(Zero) : G[j];
 
             symmTensor ds = Zero;
             if (a > SMALL)
             {
-                ds = law_.tangent(dGrad - dGrowth*tensor(N_[c]), r.r);
+                ds = law_.tangent(dGrad - dGrowth * tensor(N_[c]), r.r);
             }
             dPv[j] = (isP ? 1 : 0) - (N_[c] && ds);
-            dP[j] = -((isP ? a : 0) + (1 - a)*dPv[j]);
-            dDev[j] = a*ds + (2*eta_[c])*dev(symm(dGrad));
+            dP[j] = -((isP ? a : 0) + (1 - a) * dPv[j]);
+            dDev[j] = a * ds + (2 * eta_[c]) * dev(symm(dGrad));
 
             for (label i = 0; i < n; ++i)
             {
-                (*J)[i*(n + 1) + j] =
-                    V*(dDev[j] && symm(G[i])) + dP[j]*h[i];
+                (*J)[i * (n + 1) + j] =
+                    V * (dDev[j] && symm(G[i])) + dP[j] * h[i];
             }
-            (*J)[n*(n + 1) + j] = dGrowth + r.drdpv*dPv[j];
+            (*J)[n * (n + 1) + j] = dGrowth + r.drdpv * dPv[j];
         }
     }
 
@@ -231,13 +224,13 @@ void Foam::coupledSystem::assembleCell
     {
         // Hourglass control and inertia
         const scalar* H = &space_.hourglass()[space_.hourglassStart()[c]];
-        const scalar kappa = hourglassEta_[c]*space_.hourglassScale()[c];
-        const scalar m = pointMass(c)/deltaT_;
+        const scalar kappa = hourglassEta_[c] * space_.hourglassScale()[c];
+        const scalar m = pointMass(c) / deltaT_;
         for (label i = 0; i < n; ++i)
         {
             for (label j = 0; j < n; ++j)
             {
-                (*J)[i*(n + 1) + j] += kappa*H[i*n + j];
+                (*J)[i * (n + 1) + j] += kappa * H[i * n + j];
             }
         }
         if (m > 0)
@@ -247,7 +240,7 @@ void Foam::coupledSystem::assembleCell
                 const label s = slot(c, space_.pointNode()[p]);
                 for (label k = 0; k < nd; ++k)
                 {
-                    (*J)[(s + k)*(n + 1) + s + k] += m;
+                    (*J)[(s + k) * (n + 1) + s + k] += m;
                 }
             }
         }
@@ -268,7 +261,7 @@ void Foam::coupledSystem::assembleCell
         // From slip to stick the tangent throws the face far to the other
         // side; the secant leads there safely. The tangent is for faces that
         // have found their slip, and for those that begin to slip.
-        if (secant_ && k.change > 0.3*slip) dslip = 0;
+        if (secant_ && k.change > 0.3 * slip) dslip = 0;
 
         forAll(f, fp)
         {
@@ -276,12 +269,12 @@ void Foam::coupledSystem::assembleCell
             const label s = slot(c, node);
             for (label i = space_.nFixed()[node]; i < nd; ++i)
             {
-                const scalar w = k.grip*k.weight[fp];
+                const scalar w = k.grip * k.weight[fp];
                 const scalar along = k.slip & space_.basis()[node][i];
-                R[s + i] += w*factor*along;
+                R[s + i] += w * factor * along;
                 if (!J) continue;
 
-                scalar* row = &(*J)[(s + i)*(n + 1)];
+                scalar* row = &(*J)[(s + i) * (n + 1)];
                 forAll(f, gp)
                 {
                     const label other = space_.pointNode()[f[gp]];
@@ -289,18 +282,17 @@ void Foam::coupledSystem::assembleCell
                     for (label j = space_.nFixed()[other]; j < nd; ++j)
                     {
                         vector d = space_.basis()[other][j];
-                        d = (deltaT_*k.weight[gp]/k.area)*(d - (d & k.n)*k.n);
-                        row[t + j] +=
-                            w
-                           *(
-                                factor*(d & space_.basis()[node][i])
-                              + dslip*along*(k.slip & d)/max(slip, VSMALL)
-                            );
+                        d = (deltaT_ * k.weight[gp] / k.area)
+                            * (d - (d & k.n) * k.n);
+                        row[t + j] += w
+                            * (factor * (d & space_.basis()[node][i])
+                                + dslip * along * (k.slip & d)
+                                    / max(slip, VSMALL));
                     }
                 }
                 for (label j = 0; j <= n; ++j)
                 {
-                    row[j] -= w*dpn*along*((k.n & dDev[j] & k.n) + dP[j]);
+                    row[j] -= w * dpn * along * ((k.n & dDev[j] & k.n) + dP[j]);
                 }
             }
         }

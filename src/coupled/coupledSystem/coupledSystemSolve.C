@@ -10,8 +10,7 @@ void Foam::coupledSystem::setPetsc(const dictionary& dict)
 {
     const label nRows = space_.nRowsOwned();
 
-    string options
-    (
+    string options(
         "-bolus_snes_type newtonls -bolus_snes_linesearch_type bt"
         " -bolus_ksp_type preonly -bolus_pc_type lu"
         " -bolus_pc_factor_mat_solver_type mumps"
@@ -21,14 +20,11 @@ void Foam::coupledSystem::setPetsc(const dictionary& dict)
         " -bolus_mat_mumps_icntl_7 6 "
     );
     options += dict.lookupOrDefault<string>("petscOptions", "");
-    petscCheck
-    (
-        PetscOptionsInsertString(nullptr, options.c_str()),
-        "petscOptions"
+    petscCheck(
+        PetscOptionsInsertString(nullptr, options.c_str()), "petscOptions"
     );
 
-    petscCheck
-    (
+    petscCheck(
         VecCreateMPI(PETSC_COMM_WORLD, nRows, PETSC_DETERMINE, x_.set()),
         "VecCreateMPI"
     );
@@ -60,14 +56,15 @@ void Foam::coupledSystem::setPetsc(const dictionary& dict)
     }
 
     petscIS from;
-    ISCreateGeneral
-    (
-        PETSC_COMM_SELF, rows.size(), rows.cdata(), PETSC_COPY_VALUES,
+    ISCreateGeneral(
+        PETSC_COMM_SELF,
+        rows.size(),
+        rows.cdata(),
+        PETSC_COPY_VALUES,
         from.set()
     );
     VecCreateSeq(PETSC_COMM_SELF, rows.size(), local_.set());
-    petscCheck
-    (
+    petscCheck(
         VecScatterCreate(x_, from, local_, nullptr, scatter_.set()),
         "VecScatterCreate"
     );
@@ -92,45 +89,42 @@ void Foam::coupledSystem::preallocate()
     petscMat pattern;
     MatCreate(PETSC_COMM_WORLD, pattern.set());
     MatSetType(pattern, MATPREALLOCATOR);
-    MatSetSizes
-    (
-        pattern, nRows, nRows, PETSC_DETERMINE, PETSC_DETERMINE
-    );
+    MatSetSizes(pattern, nRows, nRows, PETSC_DETERMINE, PETSC_DETERMINE);
     MatSetUp(pattern);
 
     DynamicList<PetscInt> rows;
     auto insert = [&]()
     {
-        const scalarField zeros(rows.size()*rows.size(), 0.0);
-        MatSetValues
-        (
-            pattern, rows.size(), rows.cdata(), rows.size(), rows.cdata(),
-            zeros.cdata(), ADD_VALUES
+        const scalarField zeros(rows.size() * rows.size(), 0.0);
+        MatSetValues(
+            pattern,
+            rows.size(),
+            rows.cdata(),
+            rows.size(),
+            rows.cdata(),
+            zeros.cdata(),
+            ADD_VALUES
         );
     };
 
     forAll(space_.cellRow(), c)
     {
         rows.clear();
-        for
-        (
-            label i = space_.cellStart()[c];
-            i < space_.cellStart()[c + 1];
-            ++i
+        for (
+            label i = space_.cellStart()[c]; i < space_.cellStart()[c + 1]; ++i
         )
         {
             const label dof = space_.cellDofs()[i];
-            rows.append(space_.nodeRow()[dof/nd] + dof % nd);
+            rows.append(space_.nodeRow()[dof / nd] + dof % nd);
         }
         rows.append(space_.cellRow()[c]);
         insert();
     }
     forAll(mesh_.faceOwner(), facei)
     {
-        const label other =
-            facei < mesh_.nInternalFaces()
-          ? space_.cellRow()[mesh_.faceNeighbour()[facei]]
-          : neighbourRow_[facei - mesh_.nInternalFaces()];
+        const label other = facei < mesh_.nInternalFaces()
+            ? space_.cellRow()[mesh_.faceNeighbour()[facei]]
+            : neighbourRow_[facei - mesh_.nInternalFaces()];
         if (other < 0) continue;
         rows.clear();
         rows.append(space_.cellRow()[mesh_.faceOwner()[facei]]);
@@ -156,9 +150,9 @@ void Foam::coupledSystem::gather(Vec x)
     const PetscScalar* v;
     VecGetArrayRead(local_, &v);
     label i = 0;
-    forAll(q_, j) q_[j] = U0_*v[i++];
-    forAll(pCell_, c) pCell_[c] = P0_*v[i++];
-    forAll(pNeighbour_, f) pNeighbour_[f] = P0_*v[i++];
+    forAll(q_, j) q_[j] = U0_ * v[i++];
+    forAll(pCell_, c) pCell_[c] = P0_ * v[i++];
+    forAll(pNeighbour_, f) pNeighbour_[f] = P0_ * v[i++];
     VecRestoreArrayRead(local_, &v);
 }
 
@@ -188,13 +182,10 @@ void Foam::coupledSystem::assemble(Vec f, Mat* J) const
         for (label i = 0; i < n; ++i)
         {
             const label dof = space_.cellDofs()[space_.cellStart()[c] + i];
-            const label node = dof/nd;
+            const label node = dof / nd;
             cols.append(space_.nodeRow()[node] + dof % nd);
-            rows.append
-            (
-                dof % nd < space_.nFixed()[node] ? -1 : cols.last()
-            );
-            rowScale.append(1/(P0_*space_.nodeArea()[node]));
+            rows.append(dof % nd < space_.nFixed()[node] ? -1 : cols.last());
+            rowScale.append(1 / (P0_ * space_.nodeArea()[node]));
         }
         cols.append(space_.cellRow()[c]);
         rows.append(cols.last());
@@ -211,12 +202,16 @@ void Foam::coupledSystem::assemble(Vec f, Mat* J) const
             {
                 for (label j = 0; j <= n; ++j)
                 {
-                    Jc[i*(n + 1) + j] *= rowScale[i]*(j < n ? U0_ : P0_);
+                    Jc[i * (n + 1) + j] *= rowScale[i] * (j < n ? U0_ : P0_);
                 }
             }
-            MatSetValues
-            (
-                *J, n + 1, rows.cdata(), n + 1, cols.cdata(), Jc.cdata(),
+            MatSetValues(
+                *J,
+                n + 1,
+                rows.cdata(),
+                n + 1,
+                cols.cdata(),
+                Jc.cdata(),
                 ADD_VALUES
             );
         }
@@ -232,34 +227,27 @@ void Foam::coupledSystem::assemble(Vec f, Mat* J) const
         const label P = own[facei];
         const label N = internal ? mesh_.faceNeighbour()[facei] : -1;
         const scalar pN =
-            internal
-          ? pCell_[N]
-          : pNeighbour_[facei - mesh_.nInternalFaces()];
-        const scalar flux = beta_[facei]*(pCell_[P] - pN - smooth_[facei]);
+            internal ? pCell_[N] : pNeighbour_[facei - mesh_.nInternalFaces()];
+        const scalar flux = beta_[facei] * (pCell_[P] - pN - smooth_[facei]);
 
-        const PetscInt rows[2] =
-        {
-            space_.cellRow()[P],
-            internal ? space_.cellRow()[N] : -1
+        const PetscInt rows[2] = {
+            space_.cellRow()[P], internal ? space_.cellRow()[N] : -1
         };
-        const PetscInt cols[2] =
-        {
+        const PetscInt cols[2] = {
             rows[0],
-            internal
-          ? rows[1]
-          : neighbourRow_[facei - mesh_.nInternalFaces()]
+            internal ? rows[1] : neighbourRow_[facei - mesh_.nInternalFaces()]
         };
-        const scalar sP = weight_[P]/space_.V()[P];
-        const scalar sN = internal ? weight_[N]/space_.V()[N] : 0;
+        const scalar sP = weight_[P] / space_.V()[P];
+        const scalar sN = internal ? weight_[N] / space_.V()[N] : 0;
         if (f)
         {
-            const scalar v[2] = {flux*sP, -flux*sN};
+            const scalar v[2] = {flux * sP, -flux * sN};
             VecSetValues(f, 2, rows, v, ADD_VALUES);
         }
         if (J)
         {
-            const scalar b = beta_[facei]*P0_;
-            const scalar v[4] = {b*sP, -b*sP, -b*sN, b*sN};
+            const scalar b = beta_[facei] * P0_;
+            const scalar v[4] = {b * sP, -b * sP, -b * sN, b * sN};
             MatSetValues(*J, 2, rows, 2, cols, v, ADD_VALUES);
         }
     }
@@ -273,7 +261,7 @@ void Foam::coupledSystem::assemble(Vec f, Mat* J) const
             if (f)
             {
                 const scalar v =
-                    (q_[nd*node + k] - space_.fixedValue(node, k))/U0_;
+                    (q_[nd * node + k] - space_.fixedValue(node, k)) / U0_;
                 VecSetValues(f, 1, &row, &v, ADD_VALUES);
             }
             if (J)
@@ -299,7 +287,7 @@ void Foam::coupledSystem::assemble(Vec f, Mat* J) const
 
 void Foam::coupledSystem::computeNorms(Vec f)
 {
-    const label nNode = space_.nd()*space_.ownedNodes().size();
+    const label nNode = space_.nd() * space_.ownedNodes().size();
 
     const PetscScalar* v;
     VecGetArrayRead(f, &v);
@@ -310,7 +298,7 @@ void Foam::coupledSystem::computeNorms(Vec f)
     for (label i = 0; i < space_.nRowsOwned(); ++i)
     {
         (i < nNode ? m2 : c2) +=
-            sqr(i < nNode ? v[i] : v[i]/weight_[i - nNode]);
+            sqr(i < nNode ? v[i] : v[i] / weight_[i - nNode]);
         if (mag(v[i]) > largest)
         {
             largest = mag(v[i]);
@@ -325,8 +313,8 @@ void Foam::coupledSystem::computeNorms(Vec f)
     reduce(c2, sumOp<scalar>());
     reduce(n, sumOp<label>());
     reduce(nc, sumOp<label>());
-    report_.momentum = std::sqrt(m2/max(n, 1));
-    report_.continuity = std::sqrt(c2/max(nc, 1));
+    report_.momentum = std::sqrt(m2 / max(n, 1));
+    report_.continuity = std::sqrt(c2 / max(nc, 1));
 
     Tuple2<scalar, point> worst(largest, point::zero);
     if (where >= nNode)
@@ -335,11 +323,10 @@ void Foam::coupledSystem::computeNorms(Vec f)
     }
     else if (where >= 0)
     {
-        const label node = space_.ownedNodes()[where/space_.nd()];
+        const label node = space_.ownedNodes()[where / space_.nd()];
         worst.second() = mesh_.points()[space_.pointNode().find(node)];
     }
-    combineReduce
-    (
+    combineReduce(
         worst,
         [](Tuple2<scalar, point>& a, const Tuple2<scalar, point>& b)
         {
@@ -350,10 +337,8 @@ void Foam::coupledSystem::computeNorms(Vec f)
 }
 
 
-PetscErrorCode Foam::coupledSystem::residualFunction
-(
-    SNES, Vec x, Vec f, void* ctx
-)
+PetscErrorCode
+Foam::coupledSystem::residualFunction(SNES, Vec x, Vec f, void* ctx)
 {
     coupledSystem& system = *static_cast<coupledSystem*>(ctx);
     system.gather(x);
@@ -362,10 +347,8 @@ PetscErrorCode Foam::coupledSystem::residualFunction
 }
 
 
-PetscErrorCode Foam::coupledSystem::jacobianFunction
-(
-    SNES, Vec x, Mat, Mat J, void* ctx
-)
+PetscErrorCode
+Foam::coupledSystem::jacobianFunction(SNES, Vec x, Mat, Mat J, void* ctx)
 {
     coupledSystem& system = *static_cast<coupledSystem*>(ctx);
     system.gather(x);
@@ -375,10 +358,14 @@ PetscErrorCode Foam::coupledSystem::jacobianFunction
 }
 
 
-PetscErrorCode Foam::coupledSystem::convergedFunction
-(
-    SNES snes, PetscInt it, PetscReal, PetscReal, PetscReal,
-    SNESConvergedReason* reason, void* ctx
+PetscErrorCode Foam::coupledSystem::convergedFunction(
+    SNES snes,
+    PetscInt it,
+    PetscReal,
+    PetscReal,
+    PetscReal,
+    SNESConvergedReason* reason,
+    void* ctx
 )
 {
     coupledSystem& system = *static_cast<coupledSystem*>(ctx);
@@ -389,9 +376,9 @@ PetscErrorCode Foam::coupledSystem::convergedFunction
     const report& r = system.report_;
     if (system.monitor_)
     {
-        Info<< "    Newton " << label(it) << "  stress imbalance " << r.momentum
-            << "  volume rate " << r.continuity << "  worst at " << r.worst
-            << endl;
+        Info << "    Newton " << label(it) << "  stress imbalance "
+             << r.momentum << "  volume rate " << r.continuity << "  worst at "
+             << r.worst << endl;
     }
     *reason = SNES_CONVERGED_ITERATING;
     if (!(r.momentum < GREAT) || !(r.continuity < GREAT))
@@ -412,8 +399,7 @@ PetscErrorCode Foam::coupledSystem::convergedFunction
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
-const Foam::coupledSystem::report& Foam::coupledSystem::solve
-(
+const Foam::coupledSystem::report& Foam::coupledSystem::solve(
     const scalar deltaT
 )
 {
@@ -431,17 +417,14 @@ const Foam::coupledSystem::report& Foam::coupledSystem::solve
     {
         for (label k = 0; k < nd; ++k)
         {
-            v[i++] =
-            (
-                k < space_.nFixed()[node]
-              ? space_.fixedValue(node, k)
-              : q_[nd*node + k]
-            )/U0_;
+            v[i++] = (k < space_.nFixed()[node] ? space_.fixedValue(node, k)
+                                                : q_[nd * node + k])
+                / U0_;
         }
     }
     // The pressure stands rather than moves with the bolus where it flows on
     const scalarField& p = pLast_.size() ? pLast_ : pOld_;
-    forAll(p, c) v[i++] = p[c]/P0_;
+    forAll(p, c) v[i++] = p[c] / P0_;
     VecRestoreArray(x_, &v);
 
     gather(x_);
@@ -504,12 +487,12 @@ Foam::scalar Foam::coupledSystem::checkTangent(const scalar deltaT)
         VecWAXPY(x, -eps, d, x_);
         residualFunction(snes_, x, f0, this);
         VecAXPY(f1, -1, f0);
-        VecScale(f1, 1/(2*eps));
+        VecScale(f1, 1 / (2 * eps));
         PetscReal norm, difference;
         VecNorm(Jd, NORM_2, &norm);
         VecAXPY(f1, -1, Jd);
         VecNorm(f1, NORM_2, &difference);
-        worst = max(worst, scalar(difference/norm));
+        worst = max(worst, scalar(difference / norm));
     }
     PetscRandomDestroy(&random);
     return worst;

@@ -51,8 +51,7 @@ void Foam::historyTransport::unpack()
 }
 
 
-Foam::scalarField Foam::historyTransport::neighbour
-(
+Foam::scalarField Foam::historyTransport::neighbour(
     const scalarField& cells
 ) const
 {
@@ -62,8 +61,7 @@ Foam::scalarField Foam::historyTransport::neighbour
 }
 
 
-void Foam::historyTransport::gradient
-(
+void Foam::historyTransport::gradient(
     const scalarField& q,
     const scalarField& qNei,
     const boolList& use,
@@ -81,8 +79,8 @@ void Foam::historyTransport::gradient
     {
         if (!use[f]) continue;
         const scalar d = q[nei[f]] - q[own[f]];
-        g[own[f]] += d*pVec[f];
-        g[nei[f]] -= d*nVec[f];
+        g[own[f]] += d * pVec[f];
+        g[nei[f]] -= d * nVec[f];
     }
     forAll(mesh_.boundary(), patchi)
     {
@@ -93,9 +91,8 @@ void Foam::historyTransport::gradient
             const label f = patch.start() + i;
             if (!use[f]) continue;
             const label c = patch.faceCells()[i];
-            g[c] +=
-                (qNei[f - mesh_.nInternalFaces()] - q[c])
-               *pVec.boundaryField()[patchi][i];
+            g[c] += (qNei[f - mesh_.nInternalFaces()] - q[c])
+                * pVec.boundaryField()[patchi][i];
         }
     }
 }
@@ -103,30 +100,28 @@ void Foam::historyTransport::gradient
 
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
-Foam::historyTransport::historyTransport
-(
+Foam::historyTransport::historyTransport(
     bolusState& state,
     const scalar bulkModulus,
     const bool inertia,
     const dictionary& dict
-)
-:
+) :
     mesh_(state.alpha.mesh()),
     state_(state),
     K_(bulkModulus),
     inertia_(inertia)
 {
     entryReader read(dict);
-    maxCourant_ = read.number
-    (
-        "maxCourant", "Courant number of a sub-step [-]", {0, false, 0.5, true}, 0.3
+    maxCourant_ = read.number(
+        "maxCourant",
+        "Courant number of a sub-step [-]",
+        {0, false, 0.5, true},
+        0.3
     );
-    maxSubSteps_ = label
-    (
+    maxSubSteps_ = label(
         read.number("maxSubSteps", "sub-steps", entryReader::positive, 1000)
     );
-    maxAlpha_ = read.number
-    (
+    maxAlpha_ = read.number(
         "maxAlpha", "fullest cell of a step [-]", {1, false, GREAT, true}, 1.01
     );
     read.rejectOthers();
@@ -135,8 +130,7 @@ Foam::historyTransport::historyTransport
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
-void Foam::historyTransport::courant
-(
+void Foam::historyTransport::courant(
     const surfaceScalarField& phiRel,
     const scalar dt,
     scalar& largest,
@@ -167,11 +161,11 @@ void Foam::historyTransport::courant
     {
         if (state_.mass[c] < 1e-9) continue;
         const scalar Vmin = mesh_.moving() ? min(V[c], mesh_.V0()[c]) : V[c];
-        const scalar Co = out[c]*dt/Vmin;
+        const scalar Co = out[c] * dt / Vmin;
         largest = max(largest, Co);
         const label i =
-            label(std::floor(20*(std::log10(max(Co, scalar(1e-3))) + 3)));
-        classes[min(i, classes.size() - 1)] += state_.mass[c]*V[c];
+            label(std::floor(20 * (std::log10(max(Co, scalar(1e-3))) + 3)));
+        classes[min(i, classes.size() - 1)] += state_.mass[c] * V[c];
     }
     reduce(largest, maxOp<scalar>());
     Pstream::listCombineGather(classes, plusEqOp<scalar>());
@@ -180,13 +174,12 @@ void Foam::historyTransport::courant
     const scalar total = sum(classes);
     scalar above = 0;
     label i = classes.size() - 1;
-    while (i > 0 && above + classes[i] < 0.01*total) above += classes[i--];
-    bulk = min(largest, std::pow(10.0, (i + 1)/20.0 - 3));
+    while (i > 0 && above + classes[i] < 0.01 * total) above += classes[i--];
+    bulk = min(largest, std::pow(10.0, (i + 1) / 20.0 - 3));
 }
 
 
-Foam::historyTransport::report Foam::historyTransport::advance
-(
+Foam::historyTransport::report Foam::historyTransport::advance(
     const surfaceScalarField& phi,
     const scalar deltaT,
     surfaceScalarField& massFlux
@@ -198,15 +191,15 @@ Foam::historyTransport::report Foam::historyTransport::advance
 
     report result;
     courant(phiRel, deltaT, result.courant, result.bulkCourant);
-    result.subSteps = max(label(std::ceil(result.courant/maxCourant_)), 1);
+    result.subSteps = max(label(std::ceil(result.courant / maxCourant_)), 1);
     if (result.subSteps > maxSubSteps_)
     {
-        WarningInFunction
-            << "the flow would need " << result.subSteps << " sub-steps; "
-            << maxSubSteps_ << " (entry maxSubSteps) are taken" << endl;
+        WarningInFunction << "the flow would need " << result.subSteps
+                          << " sub-steps; " << maxSubSteps_
+                          << " (entry maxSubSteps) are taken" << endl;
         result.subSteps = maxSubSteps_;
     }
-    const scalar dt = deltaT/result.subSteps;
+    const scalar dt = deltaT / result.subSteps;
 
     const label nCells = mesh_.nCells();
     const label nInternal = mesh_.nInternalFaces();
@@ -244,13 +237,14 @@ Foam::historyTransport::report Foam::historyTransport::advance
     scalarField& alpha = state_.alpha.primitiveFieldRef();
 
     // The solution has changed the pressure, and with it the volume
-    forAll(alpha, c) alpha[c] = m[c]*std::exp(-q_[0][c]/K_);
+    forAll(alpha, c) alpha[c] = m[c] * std::exp(-q_[0][c] / K_);
 
     scalarField total(nFaces, Zero);
 
     scalarField V(V0);
     scalarField low(nFaces), anti(nFaces), F(nFaces);
-    scalarField alphaLow(nCells), alphaLeft(nCells), Pp(nCells), Pm(nCells), Rp(nCells);
+    scalarField alphaLow(nCells), alphaLeft(nCells), Pp(nCells), Pm(nCells),
+        Rp(nCells);
     scalarField Rm(nCells), out(nCells), mq(nCells);
     vectorField g(nCells);
 
@@ -260,7 +254,7 @@ Foam::historyTransport::report Foam::historyTransport::advance
     for (label sub = 1; sub <= result.subSteps; ++sub)
     {
         const scalarField Vold(V);
-        V = V0 + (scalar(sub)/result.subSteps)*(V1 - V0);
+        V = V0 + (scalar(sub) / result.subSteps) * (V1 - V0);
 
         const scalarField alphaNei(neighbour(alpha));
         const scalarField pNei(neighbour(q_[0]));
@@ -272,10 +266,12 @@ Foam::historyTransport::report Foam::historyTransport::advance
         out = 0;
         forAll(flux, f)
         {
-            if (flux[f] > 0) out[own[f]] += flux[f];
-            else if (f < nInternal) out[mesh_.neighbour()[f]] -= flux[f];
+            if (flux[f] > 0)
+                out[own[f]] += flux[f];
+            else if (f < nInternal)
+                out[mesh_.neighbour()[f]] -= flux[f];
         }
-        out *= dt/Vold;
+        out *= dt / Vold;
         const scalarField outNei(neighbour(out));
 
         // Bolus fraction at the faces
@@ -287,7 +283,7 @@ Foam::historyTransport::report Foam::historyTransport::advance
             if (phif == 0 || (!internal && !coupled[f]))
             {
                 // Bolus leaves through open boundaries, void comes in
-                low[f] = phif > 0 ? phif*alpha[P] : 0;
+                low[f] = phif > 0 ? phif * alpha[P] : 0;
                 anti[f] = 0;
                 continue;
             }
@@ -298,62 +294,63 @@ Foam::historyTransport::report Foam::historyTransport::advance
             const bool forward = phif > 0;
             const scalar aD = forward ? alpha[P] : aN;
             const scalar aA = forward ? aN : alpha[P];
-            low[f] = phif*aD;
+            low[f] = phif * aD;
             anti[f] = 0;
 
-            const vector gD =
-                forward ? g[P]
-              : internal ? g[N]
-              : vector(gx[b], gy[b], gz[b]);
+            const vector gD = forward ? g[P]
+                : internal            ? g[N]
+                                      : vector(gx[b], gy[b], gz[b]);
             const vector d = forward ? delta[f] : -delta[f];
-            const scalar aU =
-                min(max(aA - 2*(gD & d), scalar(0)), scalar(1));
+            const scalar aU = min(max(aA - 2 * (gD & d), scalar(0)), scalar(1));
             const scalar range = aA - aU;
             if (mag(range) < 1e-9) continue;
-            const scalar aT = (aD - aU)/range;
+            const scalar aT = (aD - aU) / range;
             if (aT <= 0 || aT >= 1) continue;
 
             const scalar Co =
-                max(forward ? out[P] : internal ? out[N] : outNei[b], SMALL);
-            const scalar hyper = min(aT/Co, scalar(1));
+                max(forward        ? out[P]
+                        : internal ? out[N]
+                                   : outNei[b],
+                    SMALL);
+            const scalar hyper = min(aT / Co, scalar(1));
             const scalar quick =
-                min((8*Co*aT + (1 - Co)*(6*aT + 3))/8, hyper);
-            const scalar magG = mag(gD)*mag(d);
+                min((8 * Co * aT + (1 - Co) * (6 * aT + 3)) / 8, hyper);
+            const scalar magG = mag(gD) * mag(d);
             const scalar along =
-                magG > VSMALL ? min(sqr((gD & d)/magG), scalar(1)) : 1;
-            scalar aF = aU + (along*hyper + (1 - along)*quick)*range;
+                magG > VSMALL ? min(sqr((gD & d) / magG), scalar(1)) : 1;
+            scalar aF = aU + (along * hyper + (1 - along) * quick) * range;
             aF = min(max(aF, min(aD, aA)), max(aD, aA));
-            anti[f] = phif*(aF - aD);
+            anti[f] = phif * (aF - aD);
         }
 
         // Limit what goes beyond upwinding. What leaves a cell may not count
         // on what comes in, which may be less compressed
-        alphaLow = alpha*Vold/V;
+        alphaLow = alpha * Vold / V;
         alphaLeft = alphaLow;
         Pp = 0;
         Pm = 0;
         forAll(flux, f)
         {
             const label P = own[f];
-            alphaLow[P] -= low[f]*dt/V[P];
-            alphaLeft[P] -= max(low[f], scalar(0))*dt/V[P];
-            (anti[f] > 0 ? Pm : Pp)[P] += mag(anti[f])*dt/V[P];
+            alphaLow[P] -= low[f] * dt / V[P];
+            alphaLeft[P] -= max(low[f], scalar(0)) * dt / V[P];
+            (anti[f] > 0 ? Pm : Pp)[P] += mag(anti[f]) * dt / V[P];
             if (f < nInternal)
             {
                 const label N = mesh_.neighbour()[f];
-                alphaLow[N] += low[f]*dt/V[N];
-                alphaLeft[N] += min(low[f], scalar(0))*dt/V[N];
-                (anti[f] > 0 ? Pp : Pm)[N] += mag(anti[f])*dt/V[N];
+                alphaLow[N] += low[f] * dt / V[N];
+                alphaLeft[N] += min(low[f], scalar(0)) * dt / V[N];
+                (anti[f] > 0 ? Pp : Pm)[N] += mag(anti[f]) * dt / V[N];
             }
         }
         forAll(alphaLow, c)
         {
-            Rp[c] =
-                Pp[c] > VSMALL
-              ? min(max(1 - alphaLow[c], scalar(0))/Pp[c], scalar(1)) : 1;
-            Rm[c] =
-                Pm[c] > VSMALL
-              ? min(max(alphaLeft[c], scalar(0))/Pm[c], scalar(1)) : 1;
+            Rp[c] = Pp[c] > VSMALL
+                ? min(max(1 - alphaLow[c], scalar(0)) / Pp[c], scalar(1))
+                : 1;
+            Rm[c] = Pm[c] > VSMALL
+                ? min(max(alphaLeft[c], scalar(0)) / Pm[c], scalar(1))
+                : 1;
         }
         const scalarField RpNei(neighbour(Rp));
         const scalarField RmNei(neighbour(Rm));
@@ -371,27 +368,25 @@ Foam::historyTransport::report Foam::historyTransport::advance
                 const scalar RpN = internal ? Rp[N] : RpNei[b];
                 const scalar RmN = internal ? Rm[N] : RmNei[b];
                 a +=
-                    anti[f]
-                   *(anti[f] > 0 ? min(Rm[P], RpN) : min(Rp[P], RmN));
+                    anti[f] * (anti[f] > 0 ? min(Rm[P], RpN) : min(Rp[P], RmN));
             }
             if (a == 0)
             {
                 F[f] = 0;
                 continue;
             }
-            const scalar pD =
-                flux[f] > 0 ? q_[0][P]
-              : internal ? q_[0][mesh_.neighbour()[f]]
-              : pNei[b];
-            F[f] = a*std::exp(pD/K_);
-            total[f] += F[f]/result.subSteps;
+            const scalar pD = flux[f] > 0 ? q_[0][P]
+                : internal                ? q_[0][mesh_.neighbour()[f]]
+                                          : pNei[b];
+            F[f] = a * std::exp(pD / K_);
+            total[f] += F[f] / result.subSteps;
         }
         // Memory is interpolated only inside the bolus
         forAll(F, f)
         {
-            const scalar aN =
-                f < nInternal ? alpha[mesh_.neighbour()[f]]
-              : coupled[f] ? alphaNei[f - nInternal] : 0;
+            const scalar aN = f < nInternal ? alpha[mesh_.neighbour()[f]]
+                : coupled[f]                ? alphaNei[f - nInternal]
+                                            : 0;
             full[f] = alpha[own[f]] > 0.9 && aN > 0.9;
         }
 
@@ -399,8 +394,8 @@ Foam::historyTransport::report Foam::historyTransport::advance
         m *= Vold;
         forAll(F, f)
         {
-            m[own[f]] -= F[f]*dt;
-            if (f < nInternal) m[mesh_.neighbour()[f]] += F[f]*dt;
+            m[own[f]] -= F[f] * dt;
+            if (f < nInternal) m[mesh_.neighbour()[f]] += F[f] * dt;
         }
         m /= V;
 
@@ -412,7 +407,7 @@ Foam::historyTransport::report Foam::historyTransport::advance
             const scalarField hy(neighbour(g.component(1)));
             const scalarField hz(neighbour(g.component(2)));
 
-            mq = mOld*q*Vold;
+            mq = mOld * q * Vold;
             forAll(F, f)
             {
                 if (F[f] == 0) continue;
@@ -421,34 +416,34 @@ Foam::historyTransport::report Foam::historyTransport::advance
                 const label b = f - nInternal;
                 const label N = internal ? mesh_.neighbour()[f] : -1;
                 const bool forward = F[f] > 0;
-                const scalar qN =
-                    internal ? q[N] : coupled[f] ? qNei[b] : scalar(0);
+                const scalar qN = internal ? q[N]
+                    : coupled[f]           ? qNei[b]
+                                           : scalar(0);
                 scalar qF = forward ? q[P] : qN;
                 if (full[f])
                 {
-                    const vector gD =
-                        forward ? g[P]
-                      : internal ? g[N]
-                      : vector(hx[b], hy[b], hz[b]);
-                    const scalar s1 = (forward ? 1 : -1)*(gD & delta[f]);
-                    const scalar s2 = (forward ? 1 : -1)*(qN - q[P]);
+                    const vector gD = forward ? g[P]
+                        : internal            ? g[N]
+                                              : vector(hx[b], hy[b], hz[b]);
+                    const scalar s1 = (forward ? 1 : -1) * (gD & delta[f]);
+                    const scalar s2 = (forward ? 1 : -1) * (qN - q[P]);
                     // The slope on the upwind side, from the gradient
-                    const scalar s0 = 2*s1 - s2;
-                    if (s0*s2 > 0)
+                    const scalar s0 = 2 * s1 - s2;
+                    if (s0 * s2 > 0)
                     {
-                        qF += 0.5*sign(s2)*min(mag(s0), mag(s2));
+                        qF += 0.5 * sign(s2) * min(mag(s0), mag(s2));
                     }
                 }
-                mq[P] -= F[f]*qF*dt;
-                if (internal) mq[N] += F[f]*qF*dt;
+                mq[P] -= F[f] * qF * dt;
+                if (internal) mq[N] += F[f] * qF * dt;
             }
             forAll(q, c)
             {
-                q[c] = m[c] > 1e-12 ? mq[c]/(m[c]*V[c]) : 0;
+                q[c] = m[c] > 1e-12 ? mq[c] / (m[c] * V[c]) : 0;
             }
         }
 
-        forAll(alpha, c) alpha[c] = m[c]*std::exp(-q_[0][c]/K_);
+        forAll(alpha, c) alpha[c] = m[c] * std::exp(-q_[0][c] / K_);
     }
 
     unpack();

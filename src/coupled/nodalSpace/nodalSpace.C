@@ -28,8 +28,8 @@ void Foam::nodalSpace::findSlice()
             const wedgePolyPatch& wpp = refCast<const wedgePolyPatch>(pp);
             wedge_ = true;
             nd_ = 2;
-            e1_ = wpp.axis()/mag(wpp.axis());
-            e3_ = wpp.centreNormal()/mag(wpp.centreNormal());
+            e1_ = wpp.axis() / mag(wpp.axis());
+            e3_ = wpp.centreNormal() / mag(wpp.centreNormal());
             e2_ = e3_ ^ e1_;
 
             // The two wedges give opposite axes; take the positive one
@@ -131,14 +131,13 @@ void Foam::nodalSpace::pairPoints()
             const vector& x = mesh_.points()[p];
             const scalar y = x & e2_;
             const scalar z = x & e3_;
-            const scalar r = std::sqrt(y*y + z*z);
+            const scalar r = std::sqrt(y * y + z * z);
             if (partner[p] >= 0 && r > VSMALL)
             {
-                const scalar c = y/r;
-                const scalar s = z/r;
-                Q_[p] =
-                    e1_*e1_ + c*(e2_*e2_ + e3_*e3_)
-                  + s*(e3_*e2_ - e2_*e3_);
+                const scalar c = y / r;
+                const scalar s = z / r;
+                Q_[p] = e1_ * e1_ + c * (e2_ * e2_ + e3_ * e3_)
+                    + s * (e3_ * e2_ - e2_ * e3_);
             }
         }
     }
@@ -177,13 +176,13 @@ void Foam::nodalSpace::number()
     }
     ownedNodes_.transfer(owned);
 
-    nRowsOwned_ = nd_*ownedNodes_.size() + mesh_.nCells();
+    nRowsOwned_ = nd_ * ownedNodes_.size() + mesh_.nCells();
     const globalIndex rows(nRowsOwned_);
     firstRow_ = rows.toGlobal(0);
 
     labelList pointRow(nPoints, -1);
     nodeRow_.setSize(nNodes, -1);
-    forAll(ownedNodes_, i) nodeRow_[ownedNodes_[i]] = firstRow_ + nd_*i;
+    forAll(ownedNodes_, i) nodeRow_[ownedNodes_[i]] = firstRow_ + nd_ * i;
     forAll(pointRow, p) pointRow[p] = nodeRow_[pointNode_[p]];
     syncTools::syncPointList(mesh_, pointRow, maxEqOp<label>(), label(-1));
     forAll(pointRow, p)
@@ -194,7 +193,7 @@ void Foam::nodalSpace::number()
     cellRow_.setSize(mesh_.nCells());
     forAll(cellRow_, c)
     {
-        cellRow_[c] = firstRow_ + nd_*ownedNodes_.size() + c;
+        cellRow_[c] = firstRow_ + nd_ * ownedNodes_.size() + c;
     }
 }
 
@@ -233,12 +232,12 @@ void Foam::nodalSpace::setFaceWeights()
             const label j = (i + 1) % n;
             const point& a = midPoints_[f[i]];
             const point& b = midPoints_[f[j]];
-            const vector Si = 0.5*((b - a) ^ (c - a));
-            w[i] += Si/3;
-            w[j] += Si/3;
+            const vector Si = 0.5 * ((b - a) ^ (c - a));
+            w[i] += Si / 3;
+            w[j] += Si / 3;
             S += Si;
         }
-        for (label i = 0; i < n; ++i) w[i] += S/(3*n);
+        for (label i = 0; i < n; ++i) w[i] += S / (3 * n);
     }
 }
 
@@ -256,10 +255,8 @@ void Foam::nodalSpace::setConstraints(const scalar deltaT)
         {
             const label p = nodePoint_[n];
             nodeMeshVelocity_[n] =
-                (
-                    Q_[p].T()
-                  & ((mesh_.points()[p] - mesh_.oldPoints()[p])/deltaT)
-                );
+                (Q_[p].T()
+                    & ((mesh_.points()[p] - mesh_.oldPoints()[p]) / deltaT));
         }
     }
 
@@ -269,20 +266,20 @@ void Foam::nodalSpace::setConstraints(const scalar deltaT)
 
     auto constrain = [&](const label n, vector dir)
     {
-        if (nd_ == 2) dir -= (dir & e3_)*e3_;
+        if (nd_ == 2) dir -= (dir & e3_) * e3_;
         const scalar magDir = mag(dir);
         if (magDir < VSMALL) return;
         dir /= magDir;
 
         for (label k = 0; k < nFixed_[n]; ++k)
         {
-            dir -= (dir & basis_[n][k])*basis_[n][k];
+            dir -= (dir & basis_[n][k]) * basis_[n][k];
         }
 
         // Almost the direction of an earlier one: one wall in two patches
         if (nFixed_[n] < nd_ && mag(dir) > 0.3)
         {
-            basis_[n][nFixed_[n]++] = dir/mag(dir);
+            basis_[n][nFixed_[n]++] = dir / mag(dir);
         }
     };
 
@@ -291,11 +288,11 @@ void Foam::nodalSpace::setConstraints(const scalar deltaT)
     // Points on the axis of a wedge stay there
     if (wedge_)
     {
-        const scalar tol = 1e-9*mesh_.bounds().mag();
+        const scalar tol = 1e-9 * mesh_.bounds().mag();
         forAll(nodePoint_, n)
         {
             const point& x = mesh_.points()[nodePoint_[n]];
-            if (mag(x - (x & e1_)*e1_) < tol) constrain(n, e2_);
+            if (mag(x - (x & e1_) * e1_) < tol) constrain(n, e2_);
         }
     }
 
@@ -313,8 +310,7 @@ void Foam::nodalSpace::setConstraints(const scalar deltaT)
                 normal[pp[i][fp]] += faceWeight(pp.start() + i, fp);
             }
         }
-        syncTools::syncPointList
-        (
+        syncTools::syncPointList(
             mesh_, normal, plusEqOp<vector>(), vector(Zero)
         );
 
@@ -356,11 +352,11 @@ void Foam::nodalSpace::setConstraints(const scalar deltaT)
                 vector dir = axes[d];
                 for (label k = 0; k < filled; ++k)
                 {
-                    dir -= (dir & basis_[n][k])*basis_[n][k];
+                    dir -= (dir & basis_[n][k]) * basis_[n][k];
                 }
                 if (mag(dir) > mag(best) + 1e-6) best = dir;
             }
-            basis_[n][filled++] = best/mag(best);
+            basis_[n][filled++] = best / mag(best);
         }
     }
 }
@@ -412,7 +408,7 @@ void Foam::nodalSpace::setCells()
     forAll(cellWallNormal_, c)
     {
         vector& n = cellWallNormal_[c];
-        if (nd_ == 2) n -= (n & e3_)*e3_;
+        if (nd_ == 2) n -= (n & e3_) * e3_;
         if (magSqr(n) > 0) n /= mag(n);
     }
 
@@ -420,7 +416,7 @@ void Foam::nodalSpace::setCells()
     {
         cellStart_.setSize(nCells + 1);
         hourglassStart_.setSize(nCells + 1);
-        DynamicList<label> dofs(nCells*8*nd_);
+        DynamicList<label> dofs(nCells * 8 * nd_);
         label nHour = 0;
         forAll(mesh_.cells(), c)
         {
@@ -433,10 +429,10 @@ void Foam::nodalSpace::setCells()
             }
             for (const label n : nodes)
             {
-                for (label k = 0; k < nd_; ++k) dofs.append(nd_*n + k);
+                for (label k = 0; k < nd_; ++k) dofs.append(nd_ * n + k);
             }
-            const label n = nd_*nodes.size();
-            nHour += n*n;
+            const label n = nd_ * nodes.size();
+            nHour += n * n;
         }
         cellStart_[nCells] = dofs.size();
         hourglassStart_[nCells] = nHour;
@@ -470,7 +466,7 @@ void Foam::nodalSpace::setCells()
             {
                 const label p = faces[facei][fp];
                 const label i = pts.find(p);
-                const vector w = sign*faceWeight(facei, fp);
+                const vector w = sign * faceWeight(facei, fp);
                 A[i] += w;
                 if (counted[facei]) B[i] += w;
                 V += w & midPoints_[p];
@@ -486,18 +482,18 @@ void Foam::nodalSpace::setCells()
         {
             const label p = pts[i];
             label s = 0;
-            while (dof[s] != nd_*pointNode_[p]) s += nd_;
+            while (dof[s] != nd_ * pointNode_[p]) s += nd_;
             slot[i] = s;
             for (label k = 0; k < nd_; ++k)
             {
                 const vector v = shape(p, k);
-                cellG_[start + s + k] += (A[i]*v)/V;
+                cellG_[start + s + k] += (A[i] * v) / V;
                 cellH_[start + s + k] += (B[i] & v);
             }
             centre += midPoints_[p];
             scalar a2 = 0;
             for (label k = 0; k < nd_; ++k) a2 += sqr(A[i] & shape(p, k));
-            scale += a2/V;
+            scale += a2 / V;
             area[p] += std::sqrt(a2);
         }
         centre /= pts.size();
@@ -505,7 +501,7 @@ void Foam::nodalSpace::setCells()
 
         // Hourglass: what is left of the points' velocity when the linear
         // part is taken away
-        List<vector> delta(pts.size()*n, Zero);
+        List<vector> delta(pts.size() * n, Zero);
         for (label d = 0; d < n; ++d)
         {
             vector mean = Zero;
@@ -513,16 +509,15 @@ void Foam::nodalSpace::setCells()
             {
                 if (d >= slot[i] && d < slot[i] + nd_)
                 {
-                    delta[i*n + d] = shape(pts[i], d - slot[i]);
-                    mean += delta[i*n + d];
+                    delta[i * n + d] = shape(pts[i], d - slot[i]);
+                    mean += delta[i * n + d];
                 }
             }
             mean /= pts.size();
             forAll(pts, i)
             {
-                delta[i*n + d] -=
-                    mean
-                  + ((midPoints_[pts[i]] - centre) & cellG_[start + d]);
+                delta[i * n + d] -=
+                    mean + ((midPoints_[pts[i]] - centre) & cellG_[start + d]);
             }
         }
         scalar* H = &hourglass_[hourglassStart_[c]];
@@ -531,8 +526,8 @@ void Foam::nodalSpace::setCells()
             for (label e = 0; e < n; ++e)
             {
                 scalar sum = 0;
-                forAll(pts, i) sum += (delta[i*n + d] & delta[i*n + e]);
-                H[d*n + e] = sum;
+                forAll(pts, i) sum += (delta[i * n + d] & delta[i * n + e]);
+                H[d * n + e] = sum;
             }
         }
     }
@@ -540,18 +535,13 @@ void Foam::nodalSpace::setCells()
     syncTools::syncPointList(mesh_, area, plusEqOp<scalar>(), scalar(0));
     nodeArea_.setSize(nNodes());
     nodeArea_ = 0;
-    forAll(area, p) nodeArea_[pointNode_[p]] += 0.5*area[p];
+    forAll(area, p) nodeArea_[pointNode_[p]] += 0.5 * area[p];
 }
 
 
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
-Foam::nodalSpace::nodalSpace
-(
-    const fvMesh& mesh,
-    const List<patchKind>& kinds
-)
-:
+Foam::nodalSpace::nodalSpace(const fvMesh& mesh, const List<patchKind>& kinds) :
     mesh_(mesh),
     kinds_(kinds)
 {
@@ -569,7 +559,7 @@ void Foam::nodalSpace::update(const scalar deltaT)
     midPoints_ = mesh_.points();
     if (mesh_.moving())
     {
-        midPoints_ = 0.5*(mesh_.points() + mesh_.oldPoints());
+        midPoints_ = 0.5 * (mesh_.points() + mesh_.oldPoints());
     }
     setFaceWeights();
     setConstraints(deltaT);
@@ -585,18 +575,17 @@ Foam::scalar Foam::nodalSpace::wedgeAngle() const
     {
         if (isA<wedgePolyPatch>(pp))
         {
-            return 2*std::acos
-            (
-                min(refCast<const wedgePolyPatch>(pp).cosAngle(), scalar(1))
-            );
+            return 2
+                * std::acos(
+                    min(refCast<const wedgePolyPatch>(pp).cosAngle(), scalar(1))
+                );
         }
     }
     return constant::mathematical::twoPi;
 }
 
 
-Foam::scalar Foam::nodalSpace::cellSize
-(
+Foam::scalar Foam::nodalSpace::cellSize(
     const label celli,
     const vector& dir
 ) const
@@ -620,7 +609,7 @@ void Foam::nodalSpace::toPoints(const scalarField& q, vectorField& v) const
     {
         const label n = pointNode_[p];
         v[p] = Zero;
-        for (label k = 0; k < nd_; ++k) v[p] += q[nd_*n + k]*basis_[n][k];
+        for (label k = 0; k < nd_; ++k) v[p] += q[nd_ * n + k] * basis_[n][k];
         v[p] = Q_[p] & v[p];
     }
 }
@@ -628,21 +617,17 @@ void Foam::nodalSpace::toPoints(const scalarField& q, vectorField& v) const
 
 void Foam::nodalSpace::fromPoints(const vectorField& v, scalarField& q) const
 {
-    q.setSize(nd_*nNodes());
+    q.setSize(nd_ * nNodes());
     forAll(nodePoint_, n)
     {
         const label p = nodePoint_[n];
         const vector u = Q_[p].T() & v[p];
-        for (label k = 0; k < nd_; ++k) q[nd_*n + k] = u & basis_[n][k];
+        for (label k = 0; k < nd_; ++k) q[nd_ * n + k] = u & basis_[n][k];
     }
 }
 
 
-void Foam::nodalSpace::flux
-(
-    const vectorField& v,
-    surfaceScalarField& phi
-) const
+void Foam::nodalSpace::flux(const vectorField& v, surfaceScalarField& phi) const
 {
     auto faceFlux = [&](const label facei)
     {
@@ -665,16 +650,14 @@ void Foam::nodalSpace::flux
             {
                 case NORMAL:
                 case FULL:
-                    b[i] =
-                        mesh_.moving()
-                      ? mesh_.phi().boundaryField()[patchi][i]
-                      : 0;
+                    b[i] = mesh_.moving()
+                        ? mesh_.phi().boundaryField()[patchi][i]
+                        : 0;
                     break;
                 case SLICE:
-                    b[i] =
-                        isA<processorPolyPatch>(pp)
-                      ? faceFlux(pp.start() + i)
-                      : 0;
+                    b[i] = isA<processorPolyPatch>(pp)
+                        ? faceFlux(pp.start() + i)
+                        : 0;
                     break;
                 default:
                     b[i] = faceFlux(pp.start() + i);

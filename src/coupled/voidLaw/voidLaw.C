@@ -11,26 +11,22 @@ Foam::voidLaw::voidLaw(const dictionary& dict)
 
     zeta_ = read.number("zeta", "volumetric viscosity [Pa s]", positive, 20);
     eta_ = read.number("eta", "shear viscosity [Pa s]", positive, 1);
-    etaDamaged_ = read.number
-    (
+    etaDamaged_ = read.number(
         "etaDamaged", "shear viscosity of damaged bolus [Pa s]", positive, 20
     );
-    seal_ = read.number
-    (
+    seal_ = read.number(
         "seal",
         "void fraction that bolus tolerates [-]",
         {0, false, 0.4, true},
         0.02
     );
-    closing_ = read.number
-    (
+    closing_ = read.number(
         "closing",
         "largest part of the void closed in a step [-]",
         {0, false, 1, true},
         0.5
     );
-    delta_ = read.number
-    (
+    delta_ = read.number(
         "delta", "rounding of the contact's corner [Pa]", positive, 2
     );
     read.rejectOthers();
