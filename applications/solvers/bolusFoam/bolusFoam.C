@@ -120,6 +120,8 @@ int main(int argc, char* argv[])
         coupledSystem::report solved;
         historyTransport::report moved;
         bool done = false;
+        label overfull = 0;
+        const scalar fullest = gMax(fields.alpha.primitiveField());
         while (!done)
         {
             mesh.update();
@@ -149,16 +151,22 @@ int main(int argc, char* argv[])
             );
 
             // A cell cannot hold more than it has room for: the step was too
-            // long for the void that it had to close
-            done = moved.alphaMax <= transport.maxAlpha() || !control.retry();
-            if (!done) fields.restore();
+            // long for the void that it had to close. Where two shorter ones
+            // do not help, the excess is worked off in the steps to come
+            done = moved.alphaMax <= max(transport.maxAlpha(), fullest)
+                || overfull == 2 || !control.retry();
+            if (!done)
+            {
+                fields.restore();
+                ++overfull;
+            }
         }
 
         fields.damage();
         fields.derive();
 
         control.done(solved.iterations, moved.bulkCourant);
-        report.step(solved, moved.courant, moved.subSteps);
+        report.step(solved, moved);
 
         if (control.write()) runTime.writeNow();
     }

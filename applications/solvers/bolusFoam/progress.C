@@ -26,6 +26,7 @@ Foam::progress::progress(
     )),
     initial_(books_.lookupOrDefault<scalar>("initial", fields.totalMass())),
     emptied_(books_.lookupOrDefault<scalar>("emptied", 0)),
+    spilled_(books_.lookupOrDefault<scalar>("spilled", 0)),
     alphaMin_(GREAT),
     alphaMax_(-GREAT),
     massError_(0)
@@ -58,8 +59,7 @@ Foam::progress::progress(
 
 void Foam::progress::step(
     const coupledSystem::report& solved,
-    const scalar courant,
-    const label subSteps
+    const historyTransport::report& moved
 )
 {
     scalar out = 0;
@@ -70,6 +70,8 @@ void Foam::progress::step(
     reduce(out, sumOp<scalar>());
     emptied_ += out * time_.deltaTValue();
     books_.set("emptied", emptied_);
+    spilled_ += moved.spilled;
+    books_.set("spilled", spilled_);
 
     massError_ = (fields_.totalMass() + emptied_ - initial_) / initial_;
     const scalar low = gMin(fields_.alpha.primitiveField());
@@ -81,8 +83,9 @@ void Foam::progress::step(
     {
         file_() << time_.value() << tab << time_.deltaTValue() << tab
                 << solved.iterations << tab << control_.rejected() << tab
-                << courant << tab << subSteps << tab << massError_ << tab << low
-                << tab << high << tab << time_.elapsedCpuTime() << endl;
+                << moved.courant << tab << moved.subSteps << tab << massError_
+                << tab << low << tab << high << tab << time_.elapsedCpuTime()
+                << endl;
     }
 
     // Not time_.run(), which would execute the function objects
@@ -105,7 +108,7 @@ void Foam::progress::step(
         time_.value(),
         time_.deltaTValue(),
         int(solved.iterations),
-        courant,
+        moved.courant,
         int(control_.rejected()),
         massError_,
         low,
@@ -127,8 +130,9 @@ void Foam::progress::summary() const
          << "    rejected steps   " << control_.rejected() << nl
          << "    Newton iterations " << control_.iterations() << nl
          << "    mass error       " << massError_ << nl
-         << "    alpha            " << alphaMin_ << " to " << alphaMax_ << nl
-         << "    clock time       " << clock_.elapsedTime() << " s" << nl
+         << "    spilled          " << spilled_ / initial_ << " of the bolus"
+         << nl << "    alpha            " << alphaMin_ << " to " << alphaMax_
+         << nl << "    clock time       " << clock_.elapsedTime() << " s" << nl
          << endl;
 }
 

@@ -122,7 +122,7 @@ Foam::historyTransport::historyTransport(
         read.number("maxSubSteps", "sub-steps", entryReader::positive, 1000)
     );
     maxAlpha_ = read.number(
-        "maxAlpha", "fullest cell of a step [-]", {1, false, GREAT, true}, 1.01
+        "maxAlpha", "fullest cell of a step [-]", {1, false, GREAT, true}, 1.2
     );
     read.rejectOthers();
 }
@@ -176,6 +176,115 @@ void Foam::historyTransport::courant(
     label i = classes.size() - 1;
     while (i > 0 && above + classes[i] < 0.01 * total) above += classes[i--];
     bulk = min(largest, std::pow(10.0, (i + 1) / 20.0 - 3));
+}
+
+
+Foam::scalar Foam::historyTransport::spill(
+    scalarField& total,
+    const scalar deltaT
+)
+{
+    const scalar tolerance = 1e-4;
+    const label nInternal = mesh_.nInternalFaces();
+    const labelList& own = mesh_.faceOwner();
+    const scalarField& V = mesh_.V();
+    scalarField& m = state_.mass.primitiveFieldRef();
+    scalarField& alpha = state_.alpha.primitiveFieldRef();
+
+    boolList coupled(mesh_.nFaces(), false);
+    for (const fvPatch& patch : mesh_.boundary())
+    {
+        forAll(patch, i) coupled[patch.start() + i] = patch.coupled();
+    }
+
+    scalar spilled = 0;
+    for (label pass = 0; pass < 5; ++pass)
+    {
+        if (gMax(alpha) < 1 + tolerance) break;
+
+        // Room of the cells; excess goes where there is room, in proportion
+        scalarField room(V.size());
+        forAll(room, c) room[c] = max(1 - alpha[c], scalar(0)) * V[c];
+        const scalarField roomNei(neighbour(room));
+
+        scalarField around(V.size(), Zero);
+        forAll(own, f)
+        {
+            if (f < nInternal)
+            {
+                const label N = mesh_.faceNeighbour()[f];
+                around[own[f]] += room[N];
+                around[N] += room[own[f]];
+            }
+            else if (coupled[f])
+            {
+                around[own[f]] += roomNei[f - nInternal];
+            }
+        }
+
+        // Part of the cell's excess per volume of room; half of the room at
+        // most, because other cells may want it too
+        scalarField share(V.size(), Zero);
+        forAll(share, c)
+        {
+            const scalar excess = (alpha[c] - 1) * V[c];
+            if (excess > 0.1 * tolerance * V[c] && around[c] > VSMALL)
+            {
+                share[c] = min(excess / around[c], scalar(0.5));
+            }
+        }
+        const scalarField shareNei(neighbour(share));
+
+        // Mass over the faces, with the density of where it comes from
+        scalarField rho(V.size());
+        forAll(rho, c) rho[c] = std::exp(q_[0][c] / K_);
+        const scalarField rhoNei(neighbour(rho));
+        scalarField F(own.size(), Zero);
+        forAll(own, f)
+        {
+            const label P = own[f];
+            if (f >= nInternal && !coupled[f]) continue;
+            const bool internal = f < nInternal;
+            const label b = f - nInternal;
+            const label N = internal ? mesh_.faceNeighbour()[f] : -1;
+            F[f] = share[P] * rho[P] * (internal ? room[N] : roomNei[b])
+                - (internal ? share[N] * rho[N] : shareNei[b] * rhoNei[b])
+                    * room[P];
+            if (F[f] > 0)
+                spilled += F[f];
+            else if (internal)
+                spilled -= F[f];
+            total[f] += F[f] / deltaT;
+        }
+
+        scalarField mNew(m * V);
+        forAll(F, f)
+        {
+            mNew[own[f]] -= F[f];
+            if (f < nInternal) mNew[mesh_.faceNeighbour()[f]] += F[f];
+        }
+        for (scalarField& q : q_)
+        {
+            const scalarField qNei(neighbour(q));
+            scalarField mq(m * V * q);
+            forAll(F, f)
+            {
+                if (F[f] == 0) continue;
+                const bool internal = f < nInternal;
+                const label N = internal ? mesh_.faceNeighbour()[f] : -1;
+                const scalar qF = F[f] > 0 ? q[own[f]]
+                    : internal             ? q[N]
+                                           : qNei[f - nInternal];
+                mq[own[f]] -= F[f] * qF;
+                if (internal) mq[N] += F[f] * qF;
+            }
+            forAll(q, c) q[c] = mNew[c] > 1e-12 * V[c] ? mq[c] / mNew[c] : 0;
+        }
+        m = mNew / V;
+        forAll(alpha, c) alpha[c] = m[c] * std::exp(-q_[0][c] / K_);
+    }
+
+    return returnReduce(spilled, sumOp<scalar>());
 }
 
 
@@ -445,6 +554,8 @@ Foam::historyTransport::report Foam::historyTransport::advance(
 
         forAll(alpha, c) alpha[c] = m[c] * std::exp(-q_[0][c] / K_);
     }
+
+    result.spilled = spill(total, deltaT);
 
     unpack();
     state_.mass.correctBoundaryConditions();
