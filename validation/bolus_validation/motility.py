@@ -77,7 +77,7 @@ class Motility:
     c_s: float = 0.75
     rate: float = 10
     ramp: str = "smooth"
-    gap: float = 5e-5
+    gap: float = 2e-5
     interpolation: str = "monotoneCubic"
 
     def profile(self, x):

