@@ -26,6 +26,7 @@ Foam::progress::progress(
     )),
     initial_(books_.lookupOrDefault<scalar>("initial", fields.totalMass())),
     emptied_(books_.lookupOrDefault<scalar>("emptied", 0)),
+    overfull_(books_.lookupOrDefault<label>("overfull", 0)),
     spilled_(books_.lookupOrDefault<scalar>("spilled", 0)),
     alphaMin_(GREAT),
     alphaMax_(-GREAT),
@@ -72,6 +73,14 @@ void Foam::progress::step(
     books_.set("emptied", emptied_);
     spilled_ += moved.spilled;
     books_.set("spilled", spilled_);
+    if (moved.alphaMax > 1.01)
+    {
+        books_.set("overfull", ++overfull_);
+        Info << "t " << time_.value() << " s: a cell is overfull, alpha "
+             << moved.alphaMax << " (step " << overfull_
+             << " of this kind): the excess is worked off in the next steps"
+             << endl;
+    }
 
     massError_ = (fields_.totalMass() + emptied_ - initial_) / initial_;
     const scalar low = gMin(fields_.alpha.primitiveField());
@@ -130,6 +139,7 @@ void Foam::progress::summary() const
          << "    rejected steps   " << control_.rejected() << nl
          << "    Newton iterations " << control_.iterations() << nl
          << "    mass error       " << massError_ << nl
+         << "    overfull steps   " << overfull_ << " (alpha above 1.01)" << nl
          << "    spilled          " << spilled_ / initial_ << " of the bolus"
          << nl << "    alpha            " << alphaMin_ << " to " << alphaMax_
          << nl << "    clock time       " << clock_.elapsedTime() << " s" << nl
