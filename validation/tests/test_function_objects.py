@@ -7,7 +7,7 @@ import shutil
 import numpy as np
 import pytest
 from bolus_validation.results import read_table
-from synthetic import (
+from bolus_validation.synthetic import (
     HALF_ANGLE,
     laplacian_case,
     octant_mesh,

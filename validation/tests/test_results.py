@@ -12,8 +12,7 @@ import numpy as np
 import pytest
 from bolus_validation import plots, report, results
 from bolus_validation.fields import Case, FoamFileError, read_field
-from matplotlib import image
-from synthetic import (
+from bolus_validation.synthetic import (
     HALF_ANGLE,
     octant_mesh,
     plane_mesh,
@@ -21,6 +20,7 @@ from synthetic import (
     write_field,
     write_file,
 )
+from matplotlib import image
 
 REPOSITORY = Path(__file__).resolve().parents[2]
 

@@ -14,7 +14,7 @@ import pytest
 from bolus_validation import rheology
 from bolus_validation.fields import Case
 from bolus_validation.results import read_table
-from specimens import (
+from bolus_validation.specimens import (
     HEIGHT,
     SLIDING,
     box,
@@ -26,7 +26,7 @@ from specimens import (
     run_case,
     solve,
 )
-from synthetic import run
+from bolus_validation.synthetic import run
 
 RATES = [0.01, 0.1, 1.0]
 

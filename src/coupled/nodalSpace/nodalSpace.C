@@ -5,6 +5,7 @@
 #include "surfaceFields.H"
 #include "globalMeshData.H"
 #include "globalIndex.H"
+#include "labelIOList.H"
 #include "syncTools.H"
 #include "wedgePolyPatch.H"
 #include "emptyPolyPatch.H"
@@ -329,6 +330,16 @@ void Foam::nodalSpace::setConstraints(const scalar deltaT)
         }
     }
     nNormals_ = nFixed_;
+
+    // Where the lumen is closed nothing passes
+    if (mesh_.foundObject<labelIOList>("closedPoints"))
+    {
+        for (const label p : mesh_.lookupObject<labelIOList>("closedPoints"))
+        {
+            full[pointNode_[p]] = true;
+        }
+    }
+
     forAll(full, n)
     {
         if (!full[n]) continue;

@@ -163,7 +163,8 @@ Foam::lumenMotionSolver::lumenMotionSolver(
     const IOdictionary& dict
 ) :
     points0MotionSolver(mesh, dict, typeName),
-    motion_(lumenMotion::New(mesh.time()))
+    motion_(lumenMotion::New(mesh.time())),
+    closedPoints_(IOobject("closedPoints", mesh.time().timeName(), mesh))
 {
     // Not coeffDict(), which is all of dynamicMeshDict if there is none
     const word coeffsName(typeName + "Coeffs");
@@ -207,6 +208,24 @@ Foam::lumenMotionSolver::lumenMotionSolver(
 Foam::tmp<Foam::pointField> Foam::lumenMotionSolver::curPoints() const
 {
     return points(time().value());
+}
+
+
+void Foam::lumenMotionSolver::solve()
+{
+    DynamicList<label> closed;
+
+    forAll(points0(), pointi)
+    {
+        if (motion_->wall().closed(
+                motion_->axial(points0()[pointi]), time().value()
+            ))
+        {
+            closed.append(pointi);
+        }
+    }
+
+    closedPoints_.transfer(closed);
 }
 
 

@@ -11,6 +11,7 @@ import subprocess
 from pathlib import Path
 
 import numpy as np
+
 from bolus_validation.fields import Mesh, read_mesh
 
 HALF_ANGLE = np.radians(2.5)

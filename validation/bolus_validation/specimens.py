@@ -10,9 +10,15 @@ import shutil
 from pathlib import Path
 
 import numpy as np
+
 from bolus_validation.fields import Mesh, read_mesh
 from bolus_validation.results import read_table
-from synthetic import run, write_control, write_field, write_file
+from bolus_validation.synthetic import (
+    run,
+    write_control,
+    write_field,
+    write_file,
+)
 
 ROOT = Path(__file__).parents[2]
 COMMON = ROOT / "tutorials" / "common"

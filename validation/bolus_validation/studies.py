@@ -1,0 +1,334 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Copyright (C) 2026 the bolusFoam developers
+"""Studies: our answer held against one that we did not write.
+
+A study is a function, registered by @study, that runs small cases in its own
+folder and returns Findings: rows of (value, reference, error, limit), observed
+orders, remarks, and a picture. run_all() runs those whose result is not there
+yet (several at once), and writes one page and one JSON of all.
+
+A result is kept under run/validate/<page>/<study> and taken again as long as
+nothing that it depends on has changed: solver, study, common properties.
+"""
+
+import hashlib
+import html
+import json
+import math
+import os
+import shutil
+import time
+import traceback
+from collections.abc import Callable
+from concurrent.futures import ProcessPoolExecutor, as_completed
+from dataclasses import asdict, dataclass, field
+from pathlib import Path
+
+import numpy as np
+
+ROOT = Path(__file__).parents[2]
+
+
+@dataclass
+class Row:
+    """One figure against its reference.
+
+    value, reference   in the given unit
+    error    |value - reference| / |scale|; scale is the reference unless given
+    limit    the largest error that counts as met; None: for information
+    """
+
+    quantity: str
+    unit: str
+    value: float
+    reference: float | None = None
+    limit: float | None = None
+    scale: float | None = None
+    remark: str = ""
+
+    @property
+    def error(self) -> float | None:
+        """Relative error [-]; None without a reference."""
+        if self.reference is None:
+            return None
+        scale = self.reference if self.scale is None else self.scale
+        return abs(self.value - self.reference) / abs(scale)
+
+    @property
+    def met(self) -> bool | None:
+        """Whether the error is within the limit; None without a limit."""
+        if self.limit is None or self.error is None:
+            return None
+        return bool(self.error <= self.limit)
+
+
+@dataclass
+class Order:
+    """An observed order of convergence.
+
+    sizes    cell sizes [m] or steps [s], coarse to fine
+    errors   relative errors at these sizes
+    least    what it has to be; None: for information
+    """
+
+    quantity: str
+    sizes: list
+    errors: list
+    least: float | None = None
+
+    @property
+    def observed(self) -> float:
+        """Slope of log(error) over log(size), least squares."""
+        return float(
+            np.polyfit(np.log(self.sizes), np.log(np.abs(self.errors)), 1)[0]
+        )
+
+    @property
+    def met(self) -> bool | None:
+        """Whether the observed order is large enough."""
+        return None if self.least is None else self.observed >= self.least
+
+
+@dataclass
+class Findings:
+    """What a study found; picture is the name of a file in its folder."""
+
+    rows: list = field(default_factory=list)
+    orders: list = field(default_factory=list)
+    remarks: list = field(default_factory=list)
+    picture: str | None = None
+
+    def row(self, *args, **named) -> Row:
+        """Add a Row."""
+        self.rows.append(Row(*args, **named))
+        return self.rows[-1]
+
+    def order(self, *args, **named) -> Order:
+        """Add an Order."""
+        self.orders.append(Order(*args, **named))
+        return self.orders[-1]
+
+    @property
+    def met(self) -> bool:
+        """Whether everything that has a limit is within it."""
+        return all(x.met is not False for x in (*self.rows, *self.orders))
+
+
+@dataclass(frozen=True)
+class Study:
+    """A registered study: function(folder, quick) -> Findings.
+
+    quick    a coarse and fast version, for ./Allrun test
+    """
+
+    name: str
+    group: str
+    title: str
+    reference: str
+    function: Callable
+    module: str
+
+
+REGISTRY: dict[str, Study] = {}
+
+
+def study(name: str, group: str, title: str, reference: str):
+    """Register a study; name is also that of its folder."""
+
+    def register(function):
+        REGISTRY[name] = Study(
+            name, group, title, reference, function, function.__module__
+        )
+        return function
+
+    return register
+
+
+def _key(one: Study) -> str:
+    """Hash of what a study's result depends on."""
+    files = [
+        *sorted((ROOT / "src").glob("*/*/*.[CH]")),
+        *sorted((ROOT / "applications").glob("*/*/*.[CH]")),
+        *sorted((ROOT / "tutorials" / "common").glob("*")),
+        ROOT / "validation" / "bolus_validation" / "specimens.py",
+        ROOT / "validation" / (one.module.replace(".", "/") + ".py"),
+    ]
+    digest = hashlib.sha256()
+    for path in files:
+        # Links of wmake are the sources once more
+        if "lnInclude" not in path.parts:
+            digest.update(path.read_bytes())
+    return digest.hexdigest()
+
+
+def _run_one(name: str, folder: Path, key: str) -> dict:
+    """Run a study in a fresh folder; its result as written to result.json."""
+    one = REGISTRY[name]
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir(parents=True)
+    start = time.monotonic()
+    result = {"name": name, "key": key, "error": None}
+    try:
+        found = one.function(folder, quick=False)
+        result |= {
+            "rows": [
+                asdict(r) | {"error": r.error, "met": r.met} for r in found.rows
+            ],
+            "orders": [
+                asdict(o) | {"observed": o.observed, "met": o.met}
+                for o in found.orders
+            ],
+            "remarks": found.remarks,
+            "picture": found.picture,
+            "met": found.met,
+        }
+    except Exception:
+        # Told on the page and by the exit code; the other studies go on
+        result |= {"error": traceback.format_exc(), "met": False}
+    result["seconds"] = round(time.monotonic() - start, 1)
+    (folder / "result.json").write_text(json.dumps(result, indent=1))
+    return result
+
+
+def run_all(page: str, title: str, names=(), force: bool = False) -> int:
+    """Run the registered studies, or those named; write the page.
+
+    Returns the exit code: 0 if every limit was met.
+    """
+    unknown = [n for n in names if n not in REGISTRY]
+    if unknown:
+        print(
+            f"validate: no study {', '.join(unknown)}; they are: "
+            + ", ".join(REGISTRY)
+        )
+        return 2
+    chosen = list(names) or list(REGISTRY)
+    base = ROOT / "run" / "validate" / page
+    results, missing = {}, []
+    for name in REGISTRY:
+        path = base / name / "result.json"
+        key = _key(REGISTRY[name])
+        if path.exists():
+            old = json.loads(path.read_text())
+            fresh = old["key"] == key and old["error"] is None
+            if name not in chosen or (fresh and not force):
+                results[name] = old | {"stale": old["key"] != key}
+                continue
+        if name in chosen:
+            missing.append((name, base / name, key))
+
+    print(
+        f"validate: {len(missing)} studies to run, "
+        f"{len(chosen) - len(missing)} kept",
+        flush=True,
+    )
+    with ProcessPoolExecutor(max_workers=os.cpu_count()) as pool:
+        futures = [pool.submit(_run_one, *job) for job in missing]
+        for n, future in enumerate(as_completed(futures), 1):
+            result = future.result()
+            results[result["name"]] = result
+            print(
+                f"  {n}/{len(missing)}  {result['name']}: "
+                f"{'met' if result['met'] else 'NOT MET'}, "
+                f"{result['seconds']} s",
+                flush=True,
+            )
+            if result["error"]:
+                print(result["error"].strip().splitlines()[-1], flush=True)
+            _write_page(base, page, title, results)
+    _write_page(base, page, title, results)
+    print(f"validate: {base.relative_to(ROOT) / (page + '.html')}")
+    return 0 if all(results[n]["met"] for n in chosen) else 1
+
+
+def _number(x: float | None) -> str:
+    return "" if x is None or not math.isfinite(x) else f"{x:.5g}"
+
+
+def _percent(x: float | None) -> str:
+    return "" if x is None else f"{100 * x:.3g} %"
+
+
+def _verdict(met: bool | None) -> str:
+    if met is None:
+        return "<td></td>"
+    return f'<td class="{"yes" if met else "no"}">{"yes" if met else "no"}</td>'
+
+
+def _section(base: Path, result: dict) -> str:
+    one = REGISTRY[result["name"]]
+    text = [
+        f'<h2 id="{one.name}">{one.group}. {html.escape(one.title)}</h2>',
+        f"<p>Reference: {html.escape(one.reference)}. "
+        f"{result['seconds']} s.</p>",
+    ]
+    if result.get("stale"):
+        text.append(
+            '<p class="no">From an earlier version of solver or study.</p>'
+        )
+    if result["error"]:
+        text.append(f"<pre>{html.escape(result['error'])}</pre>")
+        return "\n".join(text)
+    if result["picture"]:
+        text.append(f'<img src="{one.name}/{result["picture"]}">')
+    if result["rows"]:
+        text.append(
+            "<table><tr><th>quantity<th>unit<th>ours<th>reference<th>error"
+            "<th>limit<th>met<th></tr>"
+        )
+        for r in result["rows"]:
+            text.append(
+                f"<tr><td>{html.escape(r['quantity'])}<td>{r['unit']}"
+                f"<td>{_number(r['value'])}<td>{_number(r['reference'])}"
+                f"<td>{_percent(r['error'])}<td>{_percent(r['limit'])}"
+                f"{_verdict(r['met'])}<td>{html.escape(r['remark'])}</tr>"
+            )
+        text.append("</table>")
+    if result["orders"]:
+        text.append(
+            "<table><tr><th>order of<th>sizes<th>errors<th>observed"
+            "<th>at least<th>met</tr>"
+        )
+        for o in result["orders"]:
+            text.append(
+                f"<tr><td>{html.escape(o['quantity'])}"
+                f"<td>{', '.join(map(_number, o['sizes']))}"
+                f"<td>{', '.join(map(_percent, o['errors']))}"
+                f"<td>{o['observed']:.2f}<td>{_number(o['least'])}"
+                f"{_verdict(o['met'])}</tr>"
+            )
+        text.append("</table>")
+    text += [f"<p>{html.escape(r)}</p>" for r in result["remarks"]]
+    return "\n".join(text)
+
+
+_STYLE = """
+body { font: 15px sans-serif; max-width: 60em; margin: 2em auto; }
+table { border-collapse: collapse; margin: 1em 0; }
+td, th { border: 1px solid #ccc; padding: .2em .5em; text-align: left; }
+img { max-width: 100%; }
+.yes { color: #060; } .no { color: #b00; font-weight: bold; }
+"""
+
+
+def _write_page(base: Path, page: str, title: str, results: dict) -> None:
+    """One HTML page and one JSON of all results, in the registered order."""
+    ordered = [results[n] for n in REGISTRY if n in results]
+    contents = "\n".join(
+        f"<tr><td>{REGISTRY[r['name']].group}"
+        f'<td><a href="#{r["name"]}">'
+        f"{html.escape(REGISTRY[r['name']].title)}</a>{_verdict(r['met'])}</tr>"
+        for r in ordered
+    )
+    absent = [n for n in REGISTRY if n not in results]
+    text = (
+        f'<!DOCTYPE html><html lang="en"><head><meta charset="utf-8">'
+        f"<title>{title}</title><style>{_STYLE}</style></head><body>"
+        f"<h1>{title}</h1><table>{contents}</table>"
+        + (f"<p>Not run yet: {', '.join(absent)}.</p>" if absent else "")
+        + "\n".join(_section(base, r) for r in ordered)
+        + "</body></html>"
+    )
+    base.mkdir(parents=True, exist_ok=True)
+    (base / f"{page}.html").write_text(text)
+    (base / f"{page}.json").write_text(json.dumps(ordered, indent=1))
