@@ -144,21 +144,40 @@ def study(name: str, group: str, title: str, reference: str):
     return register
 
 
-def _key(one: Study) -> str:
-    """Hash of what a study's result depends on."""
-    files = [
-        *sorted((ROOT / "src").glob("*/*/*.[CH]")),
-        *sorted((ROOT / "applications").glob("*/*/*.[CH]")),
-        *sorted((ROOT / "tutorials" / "common").glob("*")),
-        ROOT / "validation" / "bolus_validation" / "specimens.py",
-        ROOT / "validation" / (one.module.replace(".", "/") + ".py"),
-    ]
+def _hash(files) -> str:
+    """Hash of the contents of files; links of wmake do not count twice."""
     digest = hashlib.sha256()
     for path in files:
-        # Links of wmake are the sources once more
-        if "lnInclude" not in path.parts:
+        if path.is_file() and "lnInclude" not in path.parts:
             digest.update(path.read_bytes())
     return digest.hexdigest()
+
+
+def solver_hash() -> str:
+    """Hash of the sources of the solver and of the tutorials."""
+    return _hash(
+        [
+            *sorted((ROOT / "src").glob("*/*/*.[CH]")),
+            *sorted((ROOT / "applications").glob("*/*/*.[CH]")),
+            *(
+                path
+                for path in sorted((ROOT / "tutorials").rglob("*"))
+                if path.suffix != ".md"
+            ),
+        ]
+    )
+
+
+def _key(one: Study) -> str:
+    """Hash of what a study's result depends on."""
+    base = ROOT / "validation"
+    own = _hash(
+        [
+            base / "bolus_validation" / "specimens.py",
+            base / (one.module.replace(".", "/") + ".py"),
+        ]
+    )
+    return solver_hash() + own
 
 
 def _run_one(name: str, folder: Path, key: str) -> dict:

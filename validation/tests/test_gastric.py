@@ -177,6 +177,48 @@ def test_wave_does_work_on_the_bolus(standard):
     assert 0.1e-3 < work["work"][-1] / force["total"].max() < 5e-3
 
 
+# --- the closed pylorus ------------------------------------------------------
+
+
+def test_nothing_passes_the_closed_pylorus_whatever_the_pressure(tmp_path):
+    # A small bolus near the pylorus, which is closed from the start; a fast
+    # wave presses on it
+    source = tmp_path / "source"
+    shutil.copytree(CASE_A, source)
+    motility = source / "constant" / "motilityProperties"
+    text = motility.read_text()
+    text, n = re.subn(
+        r"type +wave;\s+position[^}]*",
+        "type schedule; closeTimes (0.001); openTimes ();\n",
+        text,
+        count=1,
+    )
+    # The tip goes from 234 to 240 mm
+    text, m = re.subn(r"start +0.210;", "start 0.240;", text)
+    motility.write_text(text)
+    alpha = source / "system" / "setAlphaFieldDict"
+    alpha.write_text(
+        alpha.read_text()
+        .replace("0.0128", "0.0065")
+        .replace("0.2228", "0.2445")
+    )
+    assert (n, m) == (1, 1)
+    case = tmp_path / "caseA"
+    run_case(
+        source,
+        case,
+        *settings(
+            resolution=1e-3, endTime=0.6, speed=1e-2, closedBetween="(0.2 9)"
+        ),
+    )
+    mass = read_table(case, "retainedMass")
+    closed = mass.time > 0.2
+    force = read_table(case, "contactForce")
+    assert force["total"].max() > 0.1
+    print(mass["upstream"], mass["passedWhileClosed"], force["total"])
+    assert np.ptp(mass["upstream"][closed]) < 1e-9
+
+
 # --- what comes out ---------------------------------------------------------
 
 

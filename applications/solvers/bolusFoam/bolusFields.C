@@ -256,7 +256,7 @@ void Foam::bolusFields::derive()
 }
 
 
-Foam::scalar Foam::bolusFields::damage()
+Foam::scalar Foam::bolusFields::damage(const scalar thinnest)
 {
     if (!law_.damage().active()) return 0;
 
@@ -264,7 +264,7 @@ Foam::scalar Foam::bolusFields::damage()
     scalar volume = 0;
     forAll(D, c)
     {
-        if (alpha[c] < 0.1 || D[c] > 0.5) continue;
+        if (alpha[c] < thinnest || D[c] > 0.5) continue;
         const scalar q = elastoViscoPlastic::sigmaEq(deviator[c]);
         if (q < SMALL || !law_.damage().onset(epsilonPEq[c], -p[c] / q))
             continue;

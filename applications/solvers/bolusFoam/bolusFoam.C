@@ -162,7 +162,7 @@ int main(int argc, char* argv[])
             }
         }
 
-        fields.damage();
+        fields.damage(system.damageAbove());
         fields.derive();
 
         control.done(solved.iterations, moved.bulkCourant);

@@ -127,8 +127,7 @@ void Foam::coupledSystem::freeze()
     pOld_ = state_.p.primitiveField();
     UOld_ = state_.U.primitiveField();
 
-    // Void that the step may close: less what the last velocity would fill,
-    // but a twentieth at least
+    // Void that the step may close: less what the last velocity would fill
     scalarField inflow(nCells, Zero);
     {
         auto add = [&](const label c, const scalar out, const scalar alphaN)
@@ -165,21 +164,21 @@ void Foam::coupledSystem::freeze()
     forAll(alpha, c)
     {
         const scalar a = min(max(alpha[c], scalar(0)), scalar(1));
-        a_[c] = a < 1e-6 ? 0 : a;
+        a_[c] = a < emptyBelow_ ? 0 : a;
         damaged_[c] = state_.D[c] > 0.5;
         room_[c] =
             max(1 - a_[c] - inflow[c] * deltaT_ / space_.V()[c],
-                0.05 * (1 - a_[c]));
+                leastRoom_ * (1 - a_[c]));
         overfill_[c] = 0.5 * max(alpha[c] - 1, scalar(0)) / overfillTime_;
 
         const bool atWall =
             separates_[c] && magSqr(space_.cellWallNormal()[c]) > 0;
-        // Interface where alpha varies over the cell by more than a fifth
+        // Interface where alpha varies over the cell
         vector n = gradAlpha[c];
         if (space_.nd() == 2) n -= (n & space_.normal()) * space_.normal();
         const scalar magN = mag(n);
         const scalar h = space_.cellSize(c, n / max(magN, VSMALL));
-        scalar sharp = min(magN * h / 0.2, scalar(1));
+        scalar sharp = min(magN * h / interfaceJump_, scalar(1));
         phi_[c] = damaged_[c] || atWall
             ? 1
             : void_.opening(alpha[c]) * (alpha[c] < 0.5 ? 1 : sharp);
@@ -323,6 +322,28 @@ Foam::coupledSystem::coupledSystem(
         "tension at which a wall cell parts from the wall [Pa]",
         nonNegative,
         0.1
+    );
+    const entryReader::interval fraction = {0, true, 1, true};
+    interfaceJump_ = read.number(
+        "interfaceJump", "of alpha at an interface [-]", positive, 0.2
+    );
+    gripAbove_ = read.number(
+        "gripAbove", "alpha from which on bolus rubs [-]", fraction, 0.05
+    );
+    fullGrip_ = read.number(
+        "fullGrip",
+        "alpha with which bolus rubs fully [-]",
+        {gripAbove_, false, 1, true},
+        0.5
+    );
+    leastRoom_ = read.number(
+        "leastRoom", "part of a void that may close [-]", fraction, 0.05
+    );
+    emptyBelow_ = read.number(
+        "emptyBelow", "alpha that carries nothing [-]", fraction, 1e-6
+    );
+    damageAbove_ = read.number(
+        "damageAbove", "alpha above which bolus can break [-]", fraction, 0.1
     );
     monitor_ = dict.lookupOrDefault("monitor", false);
     read.has("monitor");

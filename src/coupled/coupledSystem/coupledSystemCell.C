@@ -115,7 +115,9 @@ bool Foam::coupledSystem::evaluateContact(
 ) const
 {
     // The void does not rub
-    k.grip = min(max((a_[c] - 0.05) / 0.45, scalar(0)), scalar(1));
+    k.grip =
+        min(max((a_[c] - gripAbove_) / (fullGrip_ - gripAbove_), scalar(0)),
+            scalar(1));
     if (k.grip == 0) return false;
 
     const label facei = contactFaces_[c][fi];

@@ -184,7 +184,12 @@ Foam::scalar Foam::historyTransport::spill(
     const scalar deltaT
 )
 {
+    // First to where there is room; where the bolus around is full, it takes
+    // a little more than fits
+    const label nFirst = 5;
+    const label nPasses = 500;
     const scalar tolerance = 1e-4;
+    const scalar squeezed = 1.005;
     const label nInternal = mesh_.nInternalFaces();
     const labelList& own = mesh_.faceOwner();
     const scalarField& V = mesh_.V();
@@ -198,13 +203,18 @@ Foam::scalar Foam::historyTransport::spill(
     }
 
     scalar spilled = 0;
-    for (label pass = 0; pass < 5; ++pass)
+    for (label pass = 0; pass < nPasses; ++pass)
     {
-        if (gMax(alpha) < 1 + tolerance) break;
+        const bool first = pass < nFirst;
+        const scalar capacity = first ? 1 : squeezed;
+        if (gMax(alpha) < (first ? 1 + tolerance : 1 + 1.8 * (squeezed - 1)))
+        {
+            break;
+        }
 
         // Room of the cells; excess goes where there is room, in proportion
         scalarField room(V.size());
-        forAll(room, c) room[c] = max(1 - alpha[c], scalar(0)) * V[c];
+        forAll(room, c) room[c] = max(capacity - alpha[c], scalar(0)) * V[c];
         const scalarField roomNei(neighbour(room));
 
         scalarField around(V.size(), Zero);
@@ -227,7 +237,7 @@ Foam::scalar Foam::historyTransport::spill(
         scalarField share(V.size(), Zero);
         forAll(share, c)
         {
-            const scalar excess = (alpha[c] - 1) * V[c];
+            const scalar excess = (alpha[c] - capacity) * V[c];
             if (excess > 0.1 * tolerance * V[c] && around[c] > VSMALL)
             {
                 share[c] = min(excess / around[c], scalar(0.5));
@@ -516,6 +526,28 @@ Foam::historyTransport::report Foam::historyTransport::advance(
             const scalarField hy(neighbour(g.component(1)));
             const scalarField hz(neighbour(g.component(2)));
 
+            // The slope may not count on values that no neighbour has
+            scalarField least(q);
+            scalarField most(q);
+            forAll(full, f)
+            {
+                if (!full[f]) continue;
+                const label P = own[f];
+                const bool internal = f < nInternal;
+                const scalar qN =
+                    internal ? q[mesh_.neighbour()[f]] : qNei[f - nInternal];
+                least[P] = min(least[P], qN);
+                most[P] = max(most[P], qN);
+                if (internal)
+                {
+                    const label N = mesh_.neighbour()[f];
+                    least[N] = min(least[N], q[P]);
+                    most[N] = max(most[N], q[P]);
+                }
+            }
+            const scalarField leastNei(neighbour(least));
+            const scalarField mostNei(neighbour(most));
+
             mq = mOld * q * Vold;
             forAll(F, f)
             {
@@ -540,7 +572,17 @@ Foam::historyTransport::report Foam::historyTransport::advance(
                     const scalar s0 = 2 * s1 - s2;
                     if (s0 * s2 > 0)
                     {
-                        qF += 0.5 * sign(s2) * min(mag(s0), mag(s2));
+                        const scalar bound = s2 > 0
+                            ? qF
+                                - (forward         ? least[P]
+                                        : internal ? least[N]
+                                                   : leastNei[b])
+                            : (forward           ? most[P]
+                                      : internal ? most[N]
+                                                 : mostNei[b])
+                                - qF;
+                        qF +=
+                            0.5 * sign(s2) * min(min(mag(s0), mag(s2)), bound);
                     }
                 }
                 mq[P] -= F[f] * qF * dt;

@@ -215,11 +215,15 @@ void Foam::lumenMotionSolver::solve()
 {
     DynamicList<label> closed;
 
+    // In the step that closes it, the lumen still empties
+    const scalar t = time().value();
+    const scalar tOld = t - time().deltaTValue();
+
     forAll(points0(), pointi)
     {
-        if (motion_->wall().closed(
-                motion_->axial(points0()[pointi]), time().value()
-            ))
+        const scalar x = motion_->axial(points0()[pointi]);
+
+        if (motion_->wall().closed(x, tOld) && motion_->wall().closed(x, t))
         {
             closed.append(pointi);
         }
