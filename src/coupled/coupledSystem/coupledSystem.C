@@ -201,80 +201,6 @@ void Foam::coupledSystem::freeze()
             * (eta_[c]
                 + a_[c] * max(state_.theta[c], scalar(1e-3)) * G * deltaT_);
     }
-
-    // Pressure smoothing between cells full of bolus
-    beta_.setSize(mesh_.nFaces());
-    smooth_.setSize(mesh_.nFaces());
-    beta_ = 0;
-    smooth_ = 0;
-    if (smoothing_ > 0)
-    {
-        const volVectorField gradP(fvc::grad(state_.p));
-        auto set = [&](const label facei,
-                       const scalar S,
-                       const vector& d,
-                       const scalar aP,
-                       const scalar aN,
-                       const scalar etaP,
-                       const scalar etaN,
-                       const vector& gP,
-                       const vector& gN)
-        {
-            if (min(aP, aN) < 0.9) return;
-            const scalar eta = 2 / (1 / etaP + 1 / etaN);
-            beta_[facei] = smoothing_ * S * mag(d) / (2 * eta);
-            smooth_[facei] = -0.5 * ((gP + gN) & d);
-        };
-
-        const volScalarField eta(
-            max(state_.theta, dimensionedScalar("t", dimless, 1e-3)) * G
-            * deltaT_
-        );
-        const surfaceScalarField& magSf = mesh_.magSf();
-        const volVectorField& C = mesh_.C();
-        for (label f = 0; f < mesh_.nInternalFaces(); ++f)
-        {
-            const label P = mesh_.faceOwner()[f];
-            const label N = mesh_.faceNeighbour()[f];
-            set(f,
-                magSf[f],
-                C[N] - C[P],
-                alpha[P],
-                alpha[N],
-                eta[P],
-                eta[N],
-                gradP[P],
-                gradP[N]);
-        }
-        forAll(mesh_.boundary(), patchi)
-        {
-            const fvPatch& patch = mesh_.boundary()[patchi];
-            if (!patch.coupled()) continue;
-            const vectorField d(patch.delta());
-            const scalarField aN(
-                alpha.boundaryField()[patchi].patchNeighbourField()
-            );
-            const scalarField etaN(
-                eta.boundaryField()[patchi].patchNeighbourField()
-            );
-            const vectorField gN(
-                gradP.boundaryField()[patchi].patchNeighbourField()
-            );
-            forAll(patch, i)
-            {
-                const label P = patch.faceCells()[i];
-                set(patch.start() + i,
-                    patch.magSf()[i],
-                    d[i],
-                    alpha[P],
-                    aN[i],
-                    eta[P],
-                    etaN[i],
-                    gradP[P],
-                    gN[i]);
-            }
-        }
-    }
 }
 
 
@@ -295,8 +221,7 @@ Foam::coupledSystem::coupledSystem(
     deltaT_(1),
     secant_(true),
     q_(space_.nd() * space_.nNodes(), Zero),
-    pCell_(mesh_.nCells(), Zero),
-    pNeighbour_(mesh_.nFaces() - mesh_.nInternalFaces(), Zero)
+    pCell_(mesh_.nCells(), Zero)
 {
     entryReader read(dict);
     const entryReader::interval& positive = entryReader::positive;
@@ -309,9 +234,6 @@ Foam::coupledSystem::coupledSystem(
         label(read.number("maxIterations", "of Newton's method", positive, 60));
     hourglass_ =
         read.number("hourglass", "hourglass control [-]", nonNegative, 0.05);
-    smoothing_ = read.number(
-        "pressureSmoothing", "against checkerboards [-]", nonNegative, 0.01
-    );
     overfillTime_ = read.number(
         "overfillTime", "in which alpha > 1 expands [s]", positive, 0.02
     );
@@ -369,27 +291,6 @@ void Foam::coupledSystem::accept(
     vectorField& v = state_.pointU.primitiveFieldRef();
     space_.toPoints(q_, v);
     space_.flux(v, phi);
-
-    // Flux of the pressure smoothing
-    forAll(beta_, facei)
-    {
-        if (beta_[facei] == 0) continue;
-        const label P = mesh_.faceOwner()[facei];
-        if (facei < mesh_.nInternalFaces())
-        {
-            phi[facei] += beta_[facei]
-                * (pCell_[P] - pCell_[mesh_.faceNeighbour()[facei]]
-                    - smooth_[facei]);
-        }
-        else
-        {
-            const label patchi = mesh_.boundaryMesh().whichPatch(facei);
-            const label i = facei - mesh_.boundaryMesh()[patchi].start();
-            phi.boundaryFieldRef()[patchi][i] += beta_[facei]
-                * (pCell_[P] - pNeighbour_[facei - mesh_.nInternalFaces()]
-                    - smooth_[facei]);
-        }
-    }
 
     // Forces of the cells on their nodes, which walls must hold; a second
     // time without the pressure on the wall faces, as in the momentum rows

@@ -2,58 +2,55 @@
 // Copyright (C) 2026 the bolusFoam developers
 
 #include "coupledSystem.H"
-#include "syncTools.H"
+#include "globalIndex.H"
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
 void Foam::coupledSystem::setPetsc(const dictionary& dict)
 {
-    const label nRows = space_.nRowsOwned();
-
     string options(
         "-bolus_snes_type newtonls -bolus_snes_linesearch_type bt"
-        " -bolus_ksp_type preonly -bolus_pc_type lu"
-        " -bolus_pc_factor_mat_solver_type mumps"
-        " -bolus_mat_mumps_icntl_14 80"
+        " -bolus_velocity_ksp_type preonly -bolus_velocity_pc_type lu"
+        " -bolus_velocity_pc_factor_mat_solver_type mumps"
+        " -bolus_velocity_mat_mumps_icntl_14 80"
         // Quasi-dense approximate minimum degree: the fastest of MUMPS's
         // orderings for some ten thousand unknowns
-        " -bolus_mat_mumps_icntl_7 6 "
+        " -bolus_velocity_mat_mumps_icntl_7 6 "
     );
     options += dict.lookupOrDefault<string>("petscOptions", "");
     petscCheck(
         PetscOptionsInsertString(nullptr, options.c_str()), "petscOptions"
     );
 
+    const label nVelocities = space_.nRowsOwned();
     petscCheck(
-        VecCreateMPI(PETSC_COMM_WORLD, nRows, PETSC_DETERMINE, x_.set()),
+        VecCreateMPI(
+            PETSC_COMM_WORLD,
+            nVelocities + mesh_.nCells(),
+            PETSC_DETERMINE,
+            x_.set()
+        ),
         "VecCreateMPI"
     );
     VecSetOption(x_, VEC_IGNORE_NEGATIVE_INDICES, PETSC_TRUE);
     VecDuplicate(x_, f_.set());
 
-    // Local order: node components, cells, cells beyond processor faces
-    DynamicList<PetscInt> rows;
-    forAll(space_.nodeRow(), n)
+    // The pressures of each processor follow its velocities
+    const globalIndex velocities(nVelocities);
+    const globalIndex cells(mesh_.nCells());
+    firstCellRow_ = velocities.toGlobal(0) + nVelocities + cells.toGlobal(0);
+    nodeRow_ = space_.nodeRow();
+    for (label& row : nodeRow_)
     {
-        for (label k = 0; k < space_.nd(); ++k)
-        {
-            rows.append(space_.nodeRow()[n] + k);
-        }
+        row += cells.offset(velocities.whichProcID(row));
     }
-    for (const label r : space_.cellRow()) rows.append(r);
 
-    const PetscInt anyRow = rows[0];
-    syncTools::swapBoundaryCellList(mesh_, space_.cellRow(), neighbourRow_);
-    for (const polyPatch& pp : mesh_.boundaryMesh())
+    DynamicList<PetscInt> rows;
+    for (const label row : nodeRow_)
     {
-        forAll(pp, i)
-        {
-            label& r = neighbourRow_[pp.start() - mesh_.nInternalFaces() + i];
-            if (!pp.coupled()) r = -1;
-            // Any row will do where there is no neighbour
-            rows.append(r < 0 ? anyRow : r);
-        }
+        for (label k = 0; k < space_.nd(); ++k) rows.append(row + k);
     }
+    forAll(pCell_, c) rows.append(firstCellRow_ + c);
 
     petscIS from;
     ISCreateGeneral(
@@ -69,76 +66,18 @@ void Foam::coupledSystem::setPetsc(const dictionary& dict)
         "VecScatterCreate"
     );
 
-    preallocate();
+    tangent_.reset(new condensedTangent(space_, scatter_, local_));
 
     SNESCreate(PETSC_COMM_WORLD, snes_.set());
     SNESSetOptionsPrefix(snes_, "bolus_");
     SNESSetFunction(snes_, f_, residualFunction, this);
-    SNESSetJacobian(snes_, J_, J_, jacobianFunction, this);
+    SNESSetJacobian(
+        snes_, tangent_->matrix(), tangent_->matrix(), jacobianFunction, this
+    );
     SNESSetConvergenceTest(snes_, convergedFunction, this, nullptr);
     SNESSetTolerances(snes_, 0, 0, 1e-12, maxIterations_, 10000);
+    tangent_->attach(snes_);
     petscCheck(SNESSetFromOptions(snes_), "petscOptions of fvSolution");
-}
-
-
-void Foam::coupledSystem::preallocate()
-{
-    const label nRows = space_.nRowsOwned();
-    const label nd = space_.nd();
-
-    petscMat pattern;
-    MatCreate(PETSC_COMM_WORLD, pattern.set());
-    MatSetType(pattern, MATPREALLOCATOR);
-    MatSetSizes(pattern, nRows, nRows, PETSC_DETERMINE, PETSC_DETERMINE);
-    MatSetUp(pattern);
-
-    DynamicList<PetscInt> rows;
-    auto insert = [&]()
-    {
-        const scalarField zeros(rows.size() * rows.size(), 0.0);
-        MatSetValues(
-            pattern,
-            rows.size(),
-            rows.cdata(),
-            rows.size(),
-            rows.cdata(),
-            zeros.cdata(),
-            ADD_VALUES
-        );
-    };
-
-    forAll(space_.cellRow(), c)
-    {
-        rows.clear();
-        for (
-            label i = space_.cellStart()[c]; i < space_.cellStart()[c + 1]; ++i
-        )
-        {
-            const label dof = space_.cellDofs()[i];
-            rows.append(space_.nodeRow()[dof / nd] + dof % nd);
-        }
-        rows.append(space_.cellRow()[c]);
-        insert();
-    }
-    forAll(mesh_.faceOwner(), facei)
-    {
-        const label other = facei < mesh_.nInternalFaces()
-            ? space_.cellRow()[mesh_.faceNeighbour()[facei]]
-            : neighbourRow_[facei - mesh_.nInternalFaces()];
-        if (other < 0) continue;
-        rows.clear();
-        rows.append(space_.cellRow()[mesh_.faceOwner()[facei]]);
-        rows.append(other);
-        insert();
-    }
-    MatAssemblyBegin(pattern, MAT_FINAL_ASSEMBLY);
-    MatAssemblyEnd(pattern, MAT_FINAL_ASSEMBLY);
-
-    MatCreate(PETSC_COMM_WORLD, J_.set());
-    MatSetType(J_, MATAIJ);
-    MatSetSizes(J_, nRows, nRows, PETSC_DETERMINE, PETSC_DETERMINE);
-    MatPreallocatorPreallocate(pattern, PETSC_TRUE, J_);
-    MatSetOption(J_, MAT_NEW_NONZERO_ALLOCATION_ERR, PETSC_TRUE);
 }
 
 
@@ -152,51 +91,51 @@ void Foam::coupledSystem::gather(Vec x)
     label i = 0;
     forAll(q_, j) q_[j] = U0_ * v[i++];
     forAll(pCell_, c) pCell_[c] = P0_ * v[i++];
-    forAll(pNeighbour_, f) pNeighbour_[f] = P0_ * v[i++];
     VecRestoreArrayRead(local_, &v);
 }
 
 
-void Foam::coupledSystem::assemble(Vec f, Mat* J) const
+void Foam::coupledSystem::assemble(Vec f, condensedTangent* J) const
 {
     const label nd = space_.nd();
 
     if (f) VecSet(f, 0);
-    if (J) MatZeroEntries(*J);
+    if (J) J->clear();
 
     DynamicList<scalar> R;
     scalarField Jc;
-    DynamicList<PetscInt> cols;
     DynamicList<PetscInt> rows;
+    DynamicList<PetscInt> cols;
     DynamicList<scalar> rowScale;
 
     forAll(pCell_, c)
     {
         assembleCell(c, R, J ? &Jc : nullptr);
 
-        // Scaled rows; those of fixed components are negative: left out
+        // Scaled rows; those of fixed components are negative: left out.
+        // The residual's rows are those of x_, the tangent's of velocities
         const label n = R.size() - 1;
-        cols.clear();
         rows.clear();
+        cols.clear();
         rowScale.clear();
         for (label i = 0; i < n; ++i)
         {
             const label dof = space_.cellDofs()[space_.cellStart()[c] + i];
             const label node = dof / nd;
-            cols.append(space_.nodeRow()[node] + dof % nd);
+            const labelList& row = f ? nodeRow_ : space_.nodeRow();
+            cols.append(row[node] + dof % nd);
             rows.append(dof % nd < space_.nFixed()[node] ? -1 : cols.last());
             rowScale.append(1 / (P0_ * space_.nodeArea()[node]));
         }
-        cols.append(space_.cellRow()[c]);
-        rows.append(cols.last());
         rowScale.append(weight_[c]);
 
         if (f)
         {
+            rows.append(firstCellRow_ + c);
             for (label i = 0; i <= n; ++i) R[i] *= rowScale[i];
             VecSetValues(f, n + 1, rows.cdata(), R.cdata(), ADD_VALUES);
         }
-        if (J)
+        else
         {
             for (label i = 0; i <= n; ++i)
             {
@@ -205,50 +144,7 @@ void Foam::coupledSystem::assemble(Vec f, Mat* J) const
                     Jc[i * (n + 1) + j] *= rowScale[i] * (j < n ? U0_ : P0_);
                 }
             }
-            MatSetValues(
-                *J,
-                n + 1,
-                rows.cdata(),
-                n + 1,
-                cols.cdata(),
-                Jc.cdata(),
-                ADD_VALUES
-            );
-        }
-    }
-
-    // Pressure smoothing
-    const labelList& own = mesh_.faceOwner();
-    forAll(beta_, facei)
-    {
-        if (beta_[facei] == 0) continue;
-
-        const bool internal = facei < mesh_.nInternalFaces();
-        const label P = own[facei];
-        const label N = internal ? mesh_.faceNeighbour()[facei] : -1;
-        const scalar pN =
-            internal ? pCell_[N] : pNeighbour_[facei - mesh_.nInternalFaces()];
-        const scalar flux = beta_[facei] * (pCell_[P] - pN - smooth_[facei]);
-
-        const PetscInt rows[2] = {
-            space_.cellRow()[P], internal ? space_.cellRow()[N] : -1
-        };
-        const PetscInt cols[2] = {
-            rows[0],
-            internal ? rows[1] : neighbourRow_[facei - mesh_.nInternalFaces()]
-        };
-        const scalar sP = weight_[P] / space_.V()[P];
-        const scalar sN = internal ? weight_[N] / space_.V()[N] : 0;
-        if (f)
-        {
-            const scalar v[2] = {flux * sP, -flux * sN};
-            VecSetValues(f, 2, rows, v, ADD_VALUES);
-        }
-        if (J)
-        {
-            const scalar b = beta_[facei] * P0_;
-            const scalar v[4] = {b * sP, -b * sP, -b * sN, b * sN};
-            MatSetValues(*J, 2, rows, 2, cols, v, ADD_VALUES);
+            J->add(c, Jc, rows, cols);
         }
     }
 
@@ -257,17 +153,16 @@ void Foam::coupledSystem::assemble(Vec f, Mat* J) const
     {
         for (label k = 0; k < space_.nFixed()[node]; ++k)
         {
-            const PetscInt row = space_.nodeRow()[node] + k;
             if (f)
             {
+                const PetscInt row = nodeRow_[node] + k;
                 const scalar v =
                     (q_[nd * node + k] - space_.fixedValue(node, k)) / U0_;
                 VecSetValues(f, 1, &row, &v, ADD_VALUES);
             }
-            if (J)
+            else
             {
-                const scalar one = 1;
-                MatSetValues(*J, 1, &row, 1, &row, &one, ADD_VALUES);
+                J->fix(space_.nodeRow()[node] + k);
             }
         }
     }
@@ -277,11 +172,7 @@ void Foam::coupledSystem::assemble(Vec f, Mat* J) const
         VecAssemblyBegin(f);
         VecAssemblyEnd(f);
     }
-    if (J)
-    {
-        MatAssemblyBegin(*J, MAT_FINAL_ASSEMBLY);
-        MatAssemblyEnd(*J, MAT_FINAL_ASSEMBLY);
-    }
+    if (J) J->finish();
 }
 
 
@@ -295,7 +186,7 @@ void Foam::coupledSystem::computeNorms(Vec f)
     scalar c2 = 0;
     scalar largest = -1;
     label where = -1;
-    for (label i = 0; i < space_.nRowsOwned(); ++i)
+    for (label i = 0; i < nNode + mesh_.nCells(); ++i)
     {
         (i < nNode ? m2 : c2) +=
             sqr(i < nNode ? v[i] : v[i] / weight_[i - nNode]);
@@ -348,11 +239,11 @@ Foam::coupledSystem::residualFunction(SNES, Vec x, Vec f, void* ctx)
 
 
 PetscErrorCode
-Foam::coupledSystem::jacobianFunction(SNES, Vec x, Mat, Mat J, void* ctx)
+Foam::coupledSystem::jacobianFunction(SNES, Vec x, Mat, Mat, void* ctx)
 {
     coupledSystem& system = *static_cast<coupledSystem*>(ctx);
     system.gather(x);
-    system.assemble(nullptr, &J);
+    system.assemble(nullptr, &*system.tangent_);
     system.qLast_ = system.q_;
     return 0;
 }
@@ -456,7 +347,6 @@ Foam::scalar Foam::coupledSystem::checkTangent(const scalar deltaT)
     // At the solution of a step: all mechanisms are then in play
     solve(deltaT);
 
-    MatAssemblyType final = MAT_FINAL_ASSEMBLY;
     petscVec x, f0, f1, d, Jd;
     VecDuplicate(x_, x.set());
     VecDuplicate(x_, f0.set());
@@ -464,12 +354,9 @@ Foam::scalar Foam::coupledSystem::checkTangent(const scalar deltaT)
     VecDuplicate(x_, d.set());
     VecDuplicate(x_, Jd.set());
 
-    Mat J = J_;
     gather(x_);
     qLast_ = q_;
-    assemble(nullptr, &J);
-    MatAssemblyBegin(J_, final);
-    MatAssemblyEnd(J_, final);
+    assemble(nullptr, &*tangent_);
 
     PetscRandom random;
     PetscRandomCreate(PETSC_COMM_WORLD, &random);
@@ -480,7 +367,7 @@ Foam::scalar Foam::coupledSystem::checkTangent(const scalar deltaT)
     for (label i = 0; i < 5; ++i)
     {
         VecSetRandom(d, random);
-        MatMult(J_, d, Jd);
+        MatMult(tangent_->matrix(), d, Jd);
         const scalar eps = 1e-7;
         VecWAXPY(x, eps, d, x_);
         residualFunction(snes_, x, f1, this);

@@ -187,12 +187,13 @@ Foam::scalar Foam::historyTransport::spill(
     // First to where there is room; where the bolus around is full, it takes
     // a little more than fits
     const label nFirst = 5;
-    const label nPasses = 500;
+    const label nPasses = 100;
     const scalar tolerance = 1e-4;
     const scalar squeezed = 1.005;
     const label nInternal = mesh_.nInternalFaces();
     const labelList& own = mesh_.faceOwner();
     const scalarField& V = mesh_.V();
+    const scalarField VNei(neighbour(V));
     scalarField& m = state_.mass.primitiveFieldRef();
     scalarField& alpha = state_.alpha.primitiveFieldRef();
 
@@ -206,7 +207,6 @@ Foam::scalar Foam::historyTransport::spill(
     for (label pass = 0; pass < nPasses; ++pass)
     {
         const bool first = pass < nFirst;
-        const scalar capacity = first ? 1 : squeezed;
         if (gMax(alpha) < (first ? 1 + tolerance : 1 + 1.8 * (squeezed - 1)))
         {
             break;
@@ -214,7 +214,7 @@ Foam::scalar Foam::historyTransport::spill(
 
         // Room of the cells; excess goes where there is room, in proportion
         scalarField room(V.size());
-        forAll(room, c) room[c] = max(capacity - alpha[c], scalar(0)) * V[c];
+        forAll(room, c) room[c] = max(1 - alpha[c], scalar(0)) * V[c];
         const scalarField roomNei(neighbour(room));
 
         scalarField around(V.size(), Zero);
@@ -235,15 +235,18 @@ Foam::scalar Foam::historyTransport::spill(
         // Part of the cell's excess per volume of room; half of the room at
         // most, because other cells may want it too
         scalarField share(V.size(), Zero);
+        scalarField excess(V.size(), Zero);
         forAll(share, c)
         {
-            const scalar excess = (alpha[c] - capacity) * V[c];
-            if (excess > 0.1 * tolerance * V[c] && around[c] > VSMALL)
+            const scalar e = alpha[c] - 1;
+            if (first && e > 0.1 * tolerance && around[c] > VSMALL)
             {
-                share[c] = min(excess / around[c], scalar(0.5));
+                share[c] = min(e * V[c] / around[c], scalar(0.5));
             }
+            if (!first) excess[c] = max(alpha[c] - squeezed, scalar(0));
         }
         const scalarField shareNei(neighbour(share));
+        const scalarField excessNei(neighbour(excess));
 
         // Mass over the faces, with the density of where it comes from
         scalarField rho(V.size());
@@ -257,9 +260,17 @@ Foam::scalar Foam::historyTransport::spill(
             const bool internal = f < nInternal;
             const label b = f - nInternal;
             const label N = internal ? mesh_.faceNeighbour()[f] : -1;
+            const scalar rhoN = internal ? rho[N] : rhoNei[b];
             F[f] = share[P] * rho[P] * (internal ? room[N] : roomNei[b])
-                - (internal ? share[N] * rho[N] : shareNei[b] * rhoNei[b])
-                    * room[P];
+                - (internal ? share[N] : shareNei[b]) * rhoN * room[P];
+
+            // What is beyond "squeezed" levels out, a twelfth a face: stable
+            // with up to six faces
+            const scalar level =
+                excess[P] - (internal ? excess[N] : excessNei[b]);
+            F[f] += level * min(V[P], internal ? V[N] : VNei[b]) / 12
+                * (level > 0 ? rho[P] : rhoN);
+
             if (F[f] > 0)
                 spilled += F[f];
             else if (internal)

@@ -177,24 +177,17 @@ void Foam::nodalSpace::number()
     }
     ownedNodes_.transfer(owned);
 
-    nRowsOwned_ = nd_ * ownedNodes_.size() + mesh_.nCells();
-    const globalIndex rows(nRowsOwned_);
-    firstRow_ = rows.toGlobal(0);
+    nRowsOwned_ = nd_ * ownedNodes_.size();
+    const label firstRow = globalIndex(nRowsOwned_).toGlobal(0);
 
     labelList pointRow(nPoints, -1);
     nodeRow_.setSize(nNodes, -1);
-    forAll(ownedNodes_, i) nodeRow_[ownedNodes_[i]] = firstRow_ + nd_ * i;
+    forAll(ownedNodes_, i) nodeRow_[ownedNodes_[i]] = firstRow + nd_ * i;
     forAll(pointRow, p) pointRow[p] = nodeRow_[pointNode_[p]];
     syncTools::syncPointList(mesh_, pointRow, maxEqOp<label>(), label(-1));
     forAll(pointRow, p)
     {
         nodeRow_[pointNode_[p]] = max(nodeRow_[pointNode_[p]], pointRow[p]);
-    }
-
-    cellRow_.setSize(mesh_.nCells());
-    forAll(cellRow_, c)
-    {
-        cellRow_[c] = firstRow_ + nd_ * ownedNodes_.size() + c;
     }
 }
 

@@ -18,7 +18,7 @@ from matplotlib.collections import PolyCollection
 
 from bolus_validation.fields import Case, Mesh, read_mesh
 from bolus_validation.results import Table, read_table
-from bolus_validation.specimens import TUTORIAL, solve
+from bolus_validation.specimens import TUTORIAL, replace, solve
 from bolus_validation.synthetic import (
     HALF_ANGLE,
     run,
@@ -180,6 +180,7 @@ def build(
     mesh_motion: str | None = None,
     functions: str = "",
     max_courant: float = 2,
+    initial: dict | None = None,
 ) -> Mesh:
     """Write a case on a mapped mesh; returns the mesh.
 
@@ -190,6 +191,7 @@ def build(
     split      {patch: {new patch: function of centres}}; sides has the new
     knots      times [s] at which prescribed motions are taken (0 and end)
     fraction   function of cell centres (n, 3) -> alpha; None: full
+    initial    {field: function of cell centres -> values}, others are 0
     measured   {function object: entries of contactForce}
     mesh_motion   text of dynamicMeshDict; None: displacementLaplacian
     write      interval of the written times [s]
@@ -296,6 +298,14 @@ def build(
     if fraction is not None:
         alpha = fraction(mesh.cell_centres)
     write_field(case, mesh, 0, "alpha", alpha)
+    for name, values in (initial or {}).items():
+        write_field(case, mesh, 0, name, values(mesh.cell_centres))
+        if name == "deviator":
+            replace(
+                case / "0" / name,
+                r"dimensions [^;]*",
+                "dimensions [1 -1 -2 0 0 0 0]",
+            )
     for name, cls, dims, rows in (
         ("U", "volVectorField", "[0 1 -1 0 0 0 0]", velocity),
         (

@@ -41,7 +41,6 @@ INPUTS = {
     "elasticSlip": ("elasticSlip", 1e-5, "m"),
     "residualGap": ("residualGap", 2e-5, "m"),
     "hourglass": (FLOW + "hourglass", 0.05, "-"),
-    "pressureSmoothing": (FLOW + "pressureSmoothing", 0.01, "-"),
     "overfillTime": (FLOW + "overfillTime", 0.02, "s"),
     "partingTension": (FLOW + "partingTension", 0.1, "Pa"),
     "interfaceJump": (FLOW + "interfaceJump", 0.2, "-"),

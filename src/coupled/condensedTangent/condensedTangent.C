@@ -1,0 +1,327 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 the bolusFoam developers
+
+#include "condensedTangent.H"
+
+namespace Foam
+{
+
+//- Read access to the values of a vector on this processor
+class vecValues
+{
+    Vec v_;
+    const PetscScalar* a_;
+
+public:
+
+    explicit vecValues(Vec v) :
+        v_(v)
+    {
+        VecGetArrayRead(v_, &a_);
+    }
+    ~vecValues()
+    {
+        VecRestoreArrayRead(v_, &a_);
+    }
+    PetscScalar operator[](const label i) const
+    {
+        return a_[i];
+    }
+};
+
+} // End namespace Foam
+
+
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+
+void Foam::condensedTangent::preallocate()
+{
+    const label n = space_.nRowsOwned();
+    const label nd = space_.nd();
+
+    petscMat pattern;
+    MatCreate(PETSC_COMM_WORLD, pattern.set());
+    MatSetType(pattern, MATPREALLOCATOR);
+    MatSetSizes(pattern, n, n, PETSC_DETERMINE, PETSC_DETERMINE);
+    MatSetUp(pattern);
+
+    DynamicList<PetscInt> rows;
+    for (label c = 0; c < space_.mesh().nCells(); ++c)
+    {
+        rows.clear();
+        for (
+            label i = space_.cellStart()[c]; i < space_.cellStart()[c + 1]; ++i
+        )
+        {
+            const label dof = space_.cellDofs()[i];
+            rows.append(space_.nodeRow()[dof / nd] + dof % nd);
+        }
+        const scalarField zeros(rows.size() * rows.size(), 0.0);
+        MatSetValues(
+            pattern,
+            rows.size(),
+            rows.cdata(),
+            rows.size(),
+            rows.cdata(),
+            zeros.cdata(),
+            ADD_VALUES
+        );
+    }
+    MatAssemblyBegin(pattern, MAT_FINAL_ASSEMBLY);
+    MatAssemblyEnd(pattern, MAT_FINAL_ASSEMBLY);
+
+    MatCreate(PETSC_COMM_WORLD, A_.set());
+    MatSetType(A_, MATAIJ);
+    MatSetSizes(A_, n, n, PETSC_DETERMINE, PETSC_DETERMINE);
+    MatSetBlockSize(A_, nd);
+    MatPreallocatorPreallocate(pattern, PETSC_TRUE, A_);
+    MatSetOption(A_, MAT_NEW_NONZERO_ALLOCATION_ERR, PETSC_TRUE);
+}
+
+
+void Foam::condensedTangent::addB(const scalarField& perCell, Vec v) const
+{
+    const label nd = space_.nd();
+    DynamicList<PetscInt> rows;
+    DynamicList<scalar> values;
+    forAll(perCell, c)
+    {
+        rows.clear();
+        values.clear();
+        for (
+            label i = space_.cellStart()[c]; i < space_.cellStart()[c + 1]; ++i
+        )
+        {
+            const label dof = space_.cellDofs()[i];
+            rows.append(space_.nodeRow()[dof / nd] + dof % nd);
+            values.append(B_[i] * perCell[c]);
+        }
+        VecSetValues(v, rows.size(), rows.cdata(), values.cdata(), ADD_VALUES);
+    }
+    VecAssemblyBegin(v);
+    VecAssemblyEnd(v);
+}
+
+
+void Foam::condensedTangent::multC(scalarField& perCell) const
+{
+    const vecValues u(local_);
+    forAll(perCell, c)
+    {
+        scalar sum = 0;
+        for (
+            label i = space_.cellStart()[c]; i < space_.cellStart()[c + 1]; ++i
+        )
+        {
+            sum += C_[i] * u[space_.cellDofs()[i]];
+        }
+        perCell[c] = sum;
+    }
+}
+
+
+PetscErrorCode Foam::condensedTangent::multiply(Vec x, Vec y) const
+{
+    const label n = space_.nRowsOwned();
+
+    VecScatterBegin(scatter_, x, local_, INSERT_VALUES, SCATTER_FORWARD);
+    VecScatterEnd(scatter_, x, local_, INSERT_VALUES, SCATTER_FORWARD);
+
+    scalarField Cu(D_.size());
+    multC(Cu);
+
+    scalarField perCell(D_.size());
+    {
+        const vecValues values(x);
+        PetscScalar* u;
+        VecGetArray(solution_, &u);
+        for (label i = 0; i < n; ++i) u[i] = values[i];
+        VecRestoreArray(solution_, &u);
+        forAll(perCell, c) perCell[c] = values[n + c] + Cu[c] / D_[c];
+    }
+    MatMult(A_, solution_, right_);
+    addB(perCell, right_);
+
+    const vecValues Au(right_);
+    const vecValues values(x);
+    PetscScalar* result;
+    VecGetArray(y, &result);
+    for (label i = 0; i < n; ++i) result[i] = Au[i];
+    forAll(D_, c) result[n + c] = Cu[c] + D_[c] * values[n + c];
+    VecRestoreArray(y, &result);
+    return 0;
+}
+
+
+PetscErrorCode Foam::condensedTangent::solve(Vec f, Vec x, bool& solved) const
+{
+    const label n = space_.nRowsOwned();
+
+    scalarField g(D_.size());
+    {
+        const vecValues values(f);
+        forAll(g, c) g[c] = values[n + c];
+    }
+    VecSet(right_, 0);
+    addB(-g / D_, right_);
+    {
+        const vecValues values(f);
+        PetscScalar* r;
+        VecGetArray(right_, &r);
+        for (label i = 0; i < n; ++i) r[i] += values[i];
+        VecRestoreArray(right_, &r);
+    }
+
+    PetscErrorCode code = KSPSolve(solver_, right_, solution_);
+    KSPConvergedReason reason;
+    KSPGetConvergedReason(solver_, &reason);
+    solved = code == 0 && reason > 0;
+
+    PetscScalar* result;
+    {
+        const vecValues u(solution_);
+        VecGetArray(x, &result);
+        for (label i = 0; i < n; ++i) result[i] = u[i];
+        VecRestoreArray(x, &result);
+    }
+    VecScatterBegin(scatter_, x, local_, INSERT_VALUES, SCATTER_FORWARD);
+    VecScatterEnd(scatter_, x, local_, INSERT_VALUES, SCATTER_FORWARD);
+    scalarField Cu(D_.size());
+    multC(Cu);
+    VecGetArray(x, &result);
+    forAll(D_, c) result[n + c] = (g[c] - Cu[c]) / D_[c];
+    VecRestoreArray(x, &result);
+    return code;
+}
+
+
+PetscErrorCode Foam::condensedTangent::shellMult(Mat J, Vec x, Vec y)
+{
+    void* self;
+    MatShellGetContext(J, &self);
+    return static_cast<const condensedTangent*>(self)->multiply(x, y);
+}
+
+
+PetscErrorCode Foam::condensedTangent::shellSolve(PC pc, Vec f, Vec x)
+{
+    void* self;
+    PCShellGetContext(pc, &self);
+    bool solved;
+    const PetscErrorCode code =
+        static_cast<const condensedTangent*>(self)->solve(f, x, solved);
+    if (!solved) PCSetFailedReason(pc, PC_SUBPC_ERROR);
+    return code;
+}
+
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::condensedTangent::condensedTangent(
+    const nodalSpace& space,
+    VecScatter scatter,
+    Vec local
+) :
+    space_(space),
+    B_(space.cellDofs().size(), Zero),
+    C_(space.cellDofs().size(), Zero),
+    D_(space.mesh().nCells(), 1.0),
+    scatter_(scatter),
+    local_(local)
+{
+    preallocate();
+    MatCreateVecs(A_, solution_.set(), right_.set());
+
+    const label n = space_.nRowsOwned() + space_.mesh().nCells();
+    petscCheck(
+        MatCreateShell(
+            PETSC_COMM_WORLD,
+            n,
+            n,
+            PETSC_DETERMINE,
+            PETSC_DETERMINE,
+            this,
+            shell_.set()
+        ),
+        "MatCreateShell"
+    );
+    MatShellSetOperation(
+        shell_, MATOP_MULT, reinterpret_cast<void (*)()>(shellMult)
+    );
+
+    KSPCreate(PETSC_COMM_WORLD, solver_.set());
+    KSPSetOptionsPrefix(solver_, "bolus_velocity_");
+    KSPSetOperators(solver_, A_, A_);
+    petscCheck(KSPSetFromOptions(solver_), "petscOptions of fvSolution");
+}
+
+
+// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+void Foam::condensedTangent::attach(SNES snes)
+{
+    KSP ksp;
+    PC pc;
+    SNESGetKSP(snes, &ksp);
+    KSPSetType(ksp, KSPPREONLY);
+    KSPGetPC(ksp, &pc);
+    PCSetType(pc, PCSHELL);
+    PCShellSetContext(pc, this);
+    PCShellSetApply(pc, shellSolve);
+}
+
+
+void Foam::condensedTangent::clear()
+{
+    MatZeroEntries(A_);
+}
+
+
+void Foam::condensedTangent::add(
+    const label c,
+    const scalarField& J,
+    const UList<PetscInt>& rows,
+    const UList<PetscInt>& cols
+)
+{
+    const label n = cols.size();
+    const label start = space_.cellStart()[c];
+    const scalar D = J[n * (n + 1) + n];
+
+    D_[c] = D;
+    for (label i = 0; i < n; ++i)
+    {
+        B_[start + i] = rows[i] < 0 ? 0 : J[i * (n + 1) + n];
+        C_[start + i] = J[n * (n + 1) + i];
+    }
+
+    scalarField A(n * n);
+    for (label i = 0; i < n; ++i)
+    {
+        const scalar b = B_[start + i] / D;
+        for (label j = 0; j < n; ++j)
+        {
+            A[i * n + j] = J[i * (n + 1) + j] - b * C_[start + j];
+        }
+    }
+    MatSetValues(A_, n, rows.cdata(), n, cols.cdata(), A.cdata(), ADD_VALUES);
+}
+
+
+void Foam::condensedTangent::fix(const PetscInt row)
+{
+    const scalar one = 1;
+    MatSetValues(A_, 1, &row, 1, &row, &one, ADD_VALUES);
+}
+
+
+void Foam::condensedTangent::finish()
+{
+    MatAssemblyBegin(A_, MAT_FINAL_ASSEMBLY);
+    MatAssemblyEnd(A_, MAT_FINAL_ASSEMBLY);
+    MatAssemblyBegin(shell_, MAT_FINAL_ASSEMBLY);
+    MatAssemblyEnd(shell_, MAT_FINAL_ASSEMBLY);
+    KSPSetOperators(solver_, A_, A_);
+}
+
+// ************************************************************************* //
