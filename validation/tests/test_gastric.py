@@ -215,7 +215,6 @@ def test_nothing_passes_the_closed_pylorus_whatever_the_pressure(tmp_path):
     closed = mass.time > 0.2
     force = read_table(case, "contactForce")
     assert force["total"].max() > 0.1
-    print(mass["upstream"], mass["passedWhileClosed"], force["total"])
     assert np.ptp(mass["upstream"][closed]) < 1e-9
 
 

@@ -3,6 +3,7 @@
 
 #include "historyTransport.H"
 #include "entryReader.H"
+#include "labelIOList.H"
 #include "leastSquaresVectors.H"
 #include "syncTools.H"
 
@@ -197,10 +198,27 @@ Foam::scalar Foam::historyTransport::spill(
     scalarField& m = state_.mass.primitiveFieldRef();
     scalarField& alpha = state_.alpha.primitiveFieldRef();
 
-    boolList coupled(mesh_.nFaces(), false);
+    if (gMax(alpha) < 1 + tolerance) return 0;
+
+    // Faces that let something pass
+    boolList open(mesh_.nFaces(), true);
     for (const fvPatch& patch : mesh_.boundary())
     {
-        forAll(patch, i) coupled[patch.start() + i] = patch.coupled();
+        forAll(patch, i) open[patch.start() + i] = patch.coupled();
+    }
+    if (mesh_.foundObject<labelIOList>("closedPoints"))
+    {
+        boolList closed(mesh_.nPoints(), false);
+        for (const label p : mesh_.lookupObject<labelIOList>("closedPoints"))
+        {
+            closed[p] = true;
+        }
+        forAll(open, f)
+        {
+            bool all = true;
+            for (const label p : mesh_.faces()[f]) all = all && closed[p];
+            if (all) open[f] = false;
+        }
     }
 
     scalar spilled = 0;
@@ -220,13 +238,14 @@ Foam::scalar Foam::historyTransport::spill(
         scalarField around(V.size(), Zero);
         forAll(own, f)
         {
+            if (!open[f]) continue;
             if (f < nInternal)
             {
                 const label N = mesh_.faceNeighbour()[f];
                 around[own[f]] += room[N];
                 around[N] += room[own[f]];
             }
-            else if (coupled[f])
+            else
             {
                 around[own[f]] += roomNei[f - nInternal];
             }
@@ -255,8 +274,8 @@ Foam::scalar Foam::historyTransport::spill(
         scalarField F(own.size(), Zero);
         forAll(own, f)
         {
+            if (!open[f]) continue;
             const label P = own[f];
-            if (f >= nInternal && !coupled[f]) continue;
             const bool internal = f < nInternal;
             const label b = f - nInternal;
             const label N = internal ? mesh_.faceNeighbour()[f] : -1;

@@ -11,10 +11,12 @@ from bolus_validation import rheology
 from bolus_validation.fields import Case
 from bolus_validation.physics.cases import (
     ELASTIC,
+    GRIP,
     OPEN,
     STICK,
     Side,
     build,
+    draw_cells,
     finish,
     material,
     picture,
@@ -121,8 +123,7 @@ def shear_study(folder: Path, quick: bool) -> Findings:
     found = Findings()
     steps = (0.1,) if quick else (0.1, 0.05, 0.025)
     drawn = {}
-    laws = ("tabulated", "power-hardening") if quick else LAWS
-    for name in laws:
+    for name in ("Herschel-Bulkley", "power-hardening") if quick else LAWS:
         flow, law = LAWS[name]
         errors = []
         for step in steps:
@@ -161,6 +162,153 @@ def shear_study(folder: Path, quick: bool) -> Findings:
                 axis.plot(times, got[:, i], "o", ms=3, label=f"{word}, ours")
                 axis.plot(times, want[:, j[0], j[1]], "k-", lw=0.8)
             axis.set(title=name, xlabel="time [s]", ylabel="deviator [Pa]")
+            axis.legend()
+
+    found.picture = picture(folder, "path.png", paint, len(drawn))
+    return found
+
+
+# --- compression, relaxation, unloading --------------------------------------
+
+# Times [s] at which compression, holding and unloading end; strain rate [1/s]
+PRESSED, RELAXED, RELEASED = 3.0, 13.0, 13.3
+STRAIN_RATE = 0.1
+
+
+def strain_at(t):
+    """Hencky strain at times t [s], compression > 0."""
+    return STRAIN_RATE * np.interp(
+        t,
+        (0, PRESSED, RELAXED, RELEASED),
+        (0, PRESSED, PRESSED, PRESSED - (RELEASED - RELAXED)),
+    )
+
+
+def exact_uniaxial(law, times):
+    """Stress (n,) [Pa] at times [s] along that path, by Runge and Kutta."""
+    stress, now, start = [], 0.0, 0.0
+    for end, rate in (
+        (PRESSED, STRAIN_RATE),
+        (RELAXED, 0.0),
+        (RELEASED, -STRAIN_RATE),
+    ):
+        here = times[(times > start + 1e-9) & (times < end + 1e-9)]
+        path = rheology.uniaxial_rate_law(
+            law, rate, np.append(here, end) - start, now
+        )
+        stress.append(path[:-1])
+        now, start = path[-1], end
+    return np.concatenate(stress)
+
+
+def pressed_cylinder(case: Path, flow: str, step: float, n: int = 4):
+    """A cylinder between platens without friction, all cells full.
+
+    The side of the mesh follows the bolus, which leaves through it. Returns
+    times (m,) [s], mean axial stress [Pa], spread of it [Pa] and stress by
+    the platen's force [Pa].
+    """
+
+    def move(t, points):
+        # A little less wide than the bolus: void would come in, not bolus
+        wide = np.expm1(0.5 * strain_at(t) - 0.004 * min(t, 1) - 0.0005 * t)
+        return points * (np.expm1(-strain_at(t)), wide, wide)
+
+    build(
+        case,
+        (n, n),
+        lambda unit: SIZE * unit,
+        {
+            "x0": Side(GRIP, move),
+            "x1": Side(GRIP, move),
+            "y1": Side("open", move),
+        },
+        material(flow, rheology.E, rheology.NU),
+        RELEASED,
+        step,
+        wedge=True,
+        knots=[
+            *np.linspace(0, PRESSED, 121),
+            *np.linspace(PRESSED + 0.1, RELEASED, 103),
+        ],
+        measured={"push": "patches (x1);"},
+        write=0.1,
+    )
+    fields, force = finish(case, "push")
+    times = np.array(list(fields.times)[1:])
+    stress = np.array([-fields.field(t, "stress")[:, 0] for t in times])
+    volume = np.array([fields.mesh(t).cell_volumes.sum() for t in times])
+    section = volume / (SIZE * np.exp(-strain_at(times)))
+    by_force = np.interp(times, force.time, force["axial_mesh"]) / section
+    return times, stress.mean(axis=1), np.ptp(stress, axis=1).max(), by_force
+
+
+@study(
+    "relaxation",
+    "A",
+    "Compression, relaxation and unloading of a cylinder",
+    "uniaxial rate equation, integrated by Runge and Kutta's method",
+)
+def relaxation_study(folder: Path, quick: bool) -> Findings:
+    """Axial stress along the path, from the field and from the force."""
+    found = Findings()
+    steps = (0.1,) if quick else (0.1, 0.05, 0.025)
+    drawn = {}
+    for name in ("tabulated",) if quick else ("tabulated", "Herschel-Bulkley"):
+        flow, law = LAWS[name]
+        errors = []
+        for step in steps:
+            times, stress, spread, by_force = pressed_cylinder(
+                folder / f"{name}{step}", flow, step
+            )
+            want = exact_uniaxial(law, times)
+            largest = want.max()
+            errors.append(np.sqrt(np.mean((stress - want) ** 2)) / largest)
+        drawn[name] = times, stress, want
+        for label, error, remark in (
+            (
+                "axial stress, rms over the path",
+                errors[-1],
+                f"largest {np.max(abs(stress - want)) / largest:.2%}",
+            ),
+            (
+                "stress by the platen's force, rms",
+                np.sqrt(np.mean((by_force - want) ** 2)) / largest,
+                "",
+            ),
+            ("spread over the cells", spread / largest, ""),
+        ):
+            found.row(
+                f"{name}: {label}",
+                "largest stress",
+                error,
+                0.0,
+                limit=0.02 if quick else 0.01,
+                scale=1,
+                remark=remark,
+            )
+        for label, when in (
+            ("plateau", PRESSED),
+            ("relaxed", RELAXED),
+            ("unloaded", RELEASED),
+        ):
+            found.row(
+                f"{name}: {label}",
+                "Pa",
+                np.interp(when, times, stress),
+                np.interp(when, times, want),
+                limit=0.02 if quick else 0.01,
+            )
+        if not quick:
+            found.order(f"{name}: axial stress", list(steps), errors, least=0.9)
+
+    def paint(*axes):
+        for axis, (name, (times, stress, want)) in zip(
+            axes, drawn.items(), strict=True
+        ):
+            axis.plot(times, stress, "o", ms=3, label="ours")
+            axis.plot(times, want, "k-", lw=0.8, label="exact")
+            axis.set(title=name, xlabel="time [s]", ylabel="axial stress [Pa]")
             axis.legend()
 
     found.picture = picture(folder, "path.png", paint, len(drawn))
@@ -345,3 +493,126 @@ SHIFT = (
     "solidBodyMotionFunction linearMotion; "
     f"velocity ({-2 * RADIUS / AROUND:.15g} 0 0);"
 )
+
+
+@study(
+    "rotation",
+    "A",
+    "A stressed bolus in rigid rotation, one turn",
+    "the state before",
+)
+def rotation_study(folder: Path, quick: bool) -> Findings:
+    """A block that turns with its mesh, and a disc in a mesh that turns."""
+    found = Findings(
+        remarks=[
+            "Walls that turn carry the mesh with them, so the two halves of "
+            "the problem are shown apart: a block that turns with walls and "
+            "mesh (the objective rate), and a disc at rest about which the "
+            "mesh turns (the transport; inertia keeps it at rest).",
+            "A step's stress is that of its end, its geometry that of its "
+            "middle: while it turns, the pressure of the block is off by half "
+            "a step's angle, which does not add up over the turn.",
+        ]
+    )
+    errors = []
+    turns = (20,) if quick else (20, 40, 80)
+    for steps in turns:
+        block = turning_block(folder / f"block{steps}", steps)
+        times = sorted(block.times)
+        before, after = (block.field(t, "p") for t in (0.0, times[-1]))
+        errors.append(np.sqrt(np.mean((after - before) ** 2) / PEAK**2))
+    _compare(found, "block", block, 0.02)
+    turned = block.field(times[-1], "deviator")
+    differ = turned - block.field(0.0, "deviator")
+    found.row(
+        "block: largest change of a component of the deviator",
+        "largest stress",
+        np.max(abs(differ)) / np.max(abs(turned)),
+        0.0,
+        limit=0.02,
+        scale=1,
+    )
+    if not quick:
+        found.order(
+            "block: pressure, rms", [AROUND / n for n in turns], errors, 0.9
+        )
+    _disc_meshes(found, folder, quick, "rotation", 1.5, TURN)
+    return found
+
+
+@study(
+    "translation",
+    "A",
+    "A stressed bolus in translation, by its own length",
+    "the state before",
+)
+def translation_study(folder: Path, quick: bool) -> Findings:
+    """A disc at rest through which the mesh moves by its diameter."""
+    found = Findings(
+        remarks=[
+            "The mesh moves and the bolus rests: for the transport the same "
+            "as a bolus that moves, without walls that would load it. Inertia "
+            "keeps it at rest."
+        ]
+    )
+    _disc_meshes(found, folder, quick, "translation", 2.5, SHIFT)
+    return found
+
+
+def _disc_meshes(found, folder, quick, name, length, motion) -> None:
+    """Rows, orders and picture of a disc on several meshes."""
+    meshes = (20,) if quick else (20, 40)
+    changes = []
+    for n in meshes:
+        # Courant numbers up to 5, sub-steps take care of that
+        steps = n if name == "rotation" else n // 2
+        fields = disc(folder / f"disc{n}", n, length, motion, steps)
+        finest = not quick and n == meshes[-1]
+        changes.append(
+            _compare(
+                found,
+                f"disc, {n} cells along the diameter",
+                fields,
+                0.02 if finest else None,
+            )
+        )
+    if not quick:
+        for i, label in enumerate(INVARIANTS):
+            found.order(
+                f"disc: {label}",
+                [2 * RADIUS / n for n in meshes],
+                [change[i] for change in changes],
+                least=1.5,
+            )
+    times = sorted(fields.times)
+
+    def paint(*axes):
+        for axis, time in zip(axes[:2], (times[0], times[-1]), strict=True):
+            draw_cells(
+                axis,
+                fields.mesh(time),
+                fields.field(time, "alpha") * _mises(fields, time),
+                RADIUS,
+                "alpha times von Mises stress [Pa]",
+            )
+            axis.set(title=f"{name}: {time:g} of the way")
+        for time, mark in ((times[0], "k."), (times[-1], "r.")):
+            centres = fields.mesh(time).cell_centres
+            full = fields.field(time, "alpha") > 0.5
+            axes[2].plot(
+                np.hypot(*centres[full, :2].T) / RADIUS,
+                _mises(fields, time)[full],
+                mark,
+                ms=2,
+                label=f"{time:g} of the way",
+            )
+        axes[2].set(xlabel="r / R", ylabel="von Mises stress [Pa]")
+        axes[2].legend()
+
+    found.picture = picture(folder, "disc.png", paint, 3)
+
+
+def _mises(fields: Case, time: float) -> np.ndarray:
+    """von Mises stress of the cells [Pa]."""
+    s = fields.field(time, "deviator")
+    return np.sqrt(1.5 * s**2 @ (1, 2, 2, 1, 2, 1))
