@@ -173,7 +173,8 @@ def _key(one: Study) -> str:
     base = ROOT / "validation"
     own = _hash(
         [
-            base / "bolus_validation" / "specimens.py",
+            *sorted((base / "bolus_validation").glob("*.py")),
+            base / "bolus_validation" / "physics" / "cases.py",
             base / (one.module.replace(".", "/") + ".py"),
         ]
     )

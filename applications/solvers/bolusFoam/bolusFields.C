@@ -97,6 +97,9 @@ Foam::bolusFields::bolusFields(
         field<scalar>(mesh, "epsilonPEq", dimensionedScalar("e", dimless, 0.0))
     ),
     D(field<scalar>(mesh, "D", dimensionedScalar("D", dimless, 0.0))),
+    soundStrain(
+        field<scalar>(mesh, "soundStrain", dimensionedScalar("e", dimless, -1.0))
+    ),
     theta(field<scalar>(mesh, "theta", dimensionedScalar("t", dimless, 1.0))),
     pointU(
         IOobject(
@@ -152,6 +155,7 @@ Foam::bolusFields::bolusFields(
         deviator,
         epsilonPEq,
         D,
+        soundStrain,
         theta,
         pointU,
         elasticSlip,
@@ -172,6 +176,11 @@ Foam::bolusFields::bolusFields(
             * exp(p / dimensionedScalar("K", dimPressure, law.elastic().K()));
     }
     mass.correctBoundaryConditions();
+    if (min(soundStrain).value() < -0.5)
+    {
+        soundStrain = (1 - D) * epsilonPEq;
+    }
+    soundStrain.correctBoundaryConditions();
     derive();
 }
 
@@ -179,7 +188,9 @@ Foam::bolusFields::bolusFields(
 template<class Operation>
 void Foam::bolusFields::forState(const Operation& op)
 {
-    volScalarField* scalars[] = {&alpha, &mass, &p, &epsilonPEq, &D, &theta};
+    volScalarField* scalars[] = {
+        &alpha, &mass, &p, &epsilonPEq, &D, &soundStrain, &theta
+    };
     volVectorField* vectors[] = {&U, &elasticSlip};
     volSymmTensorField* tensors[] = {&deviator, &stress};
     surfaceScalarField* fluxes[] = {&phiRel};
@@ -266,12 +277,14 @@ Foam::scalar Foam::bolusFields::damage(const scalar thinnest)
     {
         if (alpha[c] < thinnest || D[c] > 0.5) continue;
         const scalar q = elastoViscoPlastic::sigmaEq(deviator[c]);
-        if (q < SMALL || !law_.damage().onset(epsilonPEq[c], -p[c] / q))
-            continue;
+        const scalar strain = soundStrain[c] / (1 - D[c]);
+        if (q < SMALL || !law_.damage().onset(strain, -p[c] / q)) continue;
         D[c] = 1;
+        soundStrain[c] = 0;
         volume += mass[c] * mesh_.V()[c];
     }
     D.correctBoundaryConditions();
+    soundStrain.correctBoundaryConditions();
     reduce(volume, sumOp<scalar>());
     return volume;
 }

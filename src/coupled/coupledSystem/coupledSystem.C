@@ -19,6 +19,17 @@ constexpr Foam::scalar Foam::coupledSystem::U0_;
 constexpr Foam::scalar Foam::coupledSystem::P0_;
 constexpr Foam::scalar Foam::coupledSystem::rate0_;
 
+namespace Foam
+{
+
+static bool isSymmetry(const polyPatch& pp)
+{
+    return isA<symmetryPlanePolyPatch>(pp) || isA<symmetryPolyPatch>(pp);
+}
+
+} // End namespace Foam
+
+
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
 Foam::List<Foam::nodalSpace::patchKind> Foam::coupledSystem::kinds(
@@ -38,7 +49,7 @@ Foam::List<Foam::nodalSpace::patchKind> Foam::coupledSystem::kinds(
         {
             result[patchi] = nodalSpace::SLICE;
         }
-        else if (isA<symmetryPlanePolyPatch>(pp) || isA<symmetryPolyPatch>(pp))
+        else if (isSymmetry(pp))
         {
             result[patchi] = nodalSpace::NORMAL;
         }
@@ -249,15 +260,6 @@ Foam::coupledSystem::coupledSystem(
     interfaceJump_ = read.number(
         "interfaceJump", "of alpha at an interface [-]", positive, 0.2
     );
-    gripAbove_ = read.number(
-        "gripAbove", "alpha from which on bolus rubs [-]", fraction, 0.05
-    );
-    fullGrip_ = read.number(
-        "fullGrip",
-        "alpha with which bolus rubs fully [-]",
-        {gripAbove_, false, 1, true},
-        0.5
-    );
     leastRoom_ = read.number(
         "leastRoom", "part of a void that may close [-]", fraction, 0.05
     );
@@ -343,7 +345,12 @@ void Foam::coupledSystem::accept(
         const bool bolus = a_[c] > 0;
         state_.deviator[c] = bolus ? r.r.s : symmTensor(Zero);
         state_.theta[c] = bolus ? r.r.theta : 1;
-        if (bolus) state_.epsilonPEq[c] = r.r.epsP;
+        if (bolus)
+        {
+            state_.soundStrain[c] +=
+                (1 - state_.D[c]) * (r.r.epsP - state_.epsilonPEq[c]);
+            state_.epsilonPEq[c] = r.r.epsP;
+        }
         state_.p[c] = pCell_[c];
     }
     state_.U.correctBoundaryConditions();
@@ -388,9 +395,9 @@ void Foam::coupledSystem::wallForces(
     const label nPoints = mesh_.nPoints();
 
     // By components of the node, at the points: force, power, and weight of
-    // the wall faces. A fixed component goes to the faces that look that way
-    // (where walls meet, each then gets its own normal force), a free one to
-    // all by their area.
+    // the faces. A fixed component goes to the faces that look that way (where
+    // walls or a symmetry plane meet, each then gets its own normal force), a
+    // free one to all walls by their area.
     vectorField F(nPoints, Zero);
     vectorField W(nPoints, Zero);
     vectorField weight(nPoints, Zero);
@@ -413,14 +420,21 @@ void Foam::coupledSystem::wallForces(
             : mag(a);
     };
 
-    auto forWallPoints = [&](std::function<void(label, label, label)> f)
+    auto isWall = [&](const label patchi)
+    {
+        return isA<contactWallFvPatchVectorField>(
+            state_.U.boundaryField()[patchi]
+        );
+    };
+
+    auto forPoints = [&](std::function<void(label, label, label)> f)
     {
         forAll(mesh_.boundary(), patchi)
         {
-            if (!isA<contactWallFvPatchVectorField>(
-                    state_.U.boundaryField()[patchi]
-                ))
+            if (!isWall(patchi) && !isSymmetry(mesh_.boundaryMesh()[patchi]))
+            {
                 continue;
+            }
 
             const polyPatch& pp = mesh_.boundaryMesh()[patchi];
             forAll(pp, i)
@@ -431,15 +445,19 @@ void Foam::coupledSystem::wallForces(
     };
 
     vectorField nodeWeight(space_.nNodes(), Zero);
-    forWallPoints(
+    forPoints(
         [&](label patchi, label i, label fp)
         {
             const label facei = mesh_.boundaryMesh()[patchi].start() + i;
             const label p = mesh_.faces()[facei][fp];
+            const label node = space_.pointNode()[p];
             for (label k = 0; k < nd; ++k)
             {
-                nodeWeight[space_.pointNode()[p]][k] +=
-                    faceWeight(facei, fp, k);
+                // A symmetry plane takes nothing along itself
+                if (isWall(patchi) || k < space_.nNormals()[node])
+                {
+                    nodeWeight[node][k] += faceWeight(facei, fp, k);
+                }
             }
         }
     );
@@ -449,9 +467,10 @@ void Foam::coupledSystem::wallForces(
     syncTools::syncPointList(mesh_, W, plusEqOp<vector>(), vector(Zero));
     syncTools::syncPointList(mesh_, weight, plusEqOp<vector>(), vector(Zero));
 
-    forWallPoints(
+    forPoints(
         [&](label patchi, label i, label fp)
         {
+            if (!isWall(patchi)) return;
             const label facei = mesh_.boundaryMesh()[patchi].start() + i;
             const label p = mesh_.faces()[facei][fp];
             for (label k = 0; k < nd; ++k)

@@ -114,10 +114,8 @@ bool Foam::coupledSystem::evaluateContact(
     contact& k
 ) const
 {
-    // The void does not rub
-    k.grip =
-        min(max((a_[c] - gripAbove_) / (fullGrip_ - gripAbove_), scalar(0)),
-            scalar(1));
+    // The void does not rub: bolus does, on its part of the face
+    k.grip = a_[c];
     if (k.grip == 0) return false;
 
     const label facei = contactFaces_[c][fi];
@@ -129,7 +127,7 @@ bool Foam::coupledSystem::evaluateContact(
     if (space_.nd() == 2) k.n -= (k.n & space_.normal()) * space_.normal();
     k.n /= mag(k.n);
 
-    k.pn = -((k.n & r.dev & k.n) + r.P);
+    k.pn = pCell_[c] - (k.n & r.r.s & k.n);
     if (k.pn <= 0) return false;
 
     k.law = friction_[patchi];
@@ -192,12 +190,14 @@ void Foam::coupledSystem::assembleCell(
     List<symmTensor> dDev;
     scalarList dP;
     scalarList dPv;
+    List<symmTensor> dS;
     if (J)
     {
         J->setSize((n + 1) * (n + 1));
         dDev.setSize(n + 1);
         dP.setSize(n + 1);
         dPv.setSize(n + 1);
+        dS.setSize(n + 1);
         for (label j = 0; j <= n; ++j)
         {
             const bool isP = j == n;
@@ -209,6 +209,7 @@ void Foam::coupledSystem::assembleCell(
             {
                 ds = law_.tangent(dGrad - dGrowth * tensor(N_[c]), r.r);
             }
+            dS[j] = ds;
             dPv[j] = (isP ? 1 : 0) - (N_[c] && ds);
             dP[j] = -((isP ? a : 0) + (1 - a) * dPv[j]);
             dDev[j] = a * ds + (2 * eta_[c]) * dev(symm(dGrad));
@@ -294,7 +295,8 @@ void Foam::coupledSystem::assembleCell(
                 }
                 for (label j = 0; j <= n; ++j)
                 {
-                    row[j] -= w * dpn * along * ((k.n & dDev[j] & k.n) + dP[j]);
+                    row[j] += w * dpn * along
+                        * ((j == n ? 1 : 0) - (k.n & dS[j] & k.n));
                 }
             }
         }

@@ -4,17 +4,17 @@
 #include "historyTransport.H"
 #include "entryReader.H"
 #include "labelIOList.H"
-#include "leastSquaresVectors.H"
 #include "syncTools.H"
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
 void Foam::historyTransport::pack()
 {
-    q_.setSize(9 + (inertia_ ? 3 : 0));
+    q_.setSize(10 + (inertia_ ? 3 : 0));
     q_[0] = state_.p.primitiveField();
     q_[1] = state_.epsilonPEq.primitiveField();
     q_[2] = state_.D.primitiveField();
+    q_[9] = state_.soundStrain.primitiveField();
     for (direction d = 0; d < 6; ++d)
     {
         q_[3 + d] = state_.deviator.primitiveField().component(d);
@@ -23,7 +23,7 @@ void Foam::historyTransport::pack()
     {
         for (direction d = 0; d < 3; ++d)
         {
-            q_[9 + d] = state_.U.primitiveField().component(d);
+            q_[10 + d] = state_.U.primitiveField().component(d);
         }
     }
 }
@@ -34,6 +34,7 @@ void Foam::historyTransport::unpack()
     state_.p.primitiveFieldRef() = q_[0];
     state_.epsilonPEq.primitiveFieldRef() = q_[1];
     state_.D.primitiveFieldRef() = q_[2];
+    state_.soundStrain.primitiveFieldRef() = q_[9];
     for (direction d = 0; d < 6; ++d)
     {
         state_.deviator.primitiveFieldRef().replace(d, q_[3 + d]);
@@ -42,12 +43,13 @@ void Foam::historyTransport::unpack()
     {
         for (direction d = 0; d < 3; ++d)
         {
-            state_.U.primitiveFieldRef().replace(d, q_[9 + d]);
+            state_.U.primitiveFieldRef().replace(d, q_[10 + d]);
         }
     }
     state_.p.correctBoundaryConditions();
     state_.epsilonPEq.correctBoundaryConditions();
     state_.D.correctBoundaryConditions();
+    state_.soundStrain.correctBoundaryConditions();
     state_.deviator.correctBoundaryConditions();
 }
 
@@ -62,43 +64,6 @@ Foam::scalarField Foam::historyTransport::neighbour(
 }
 
 
-void Foam::historyTransport::gradient(
-    const scalarField& q,
-    const scalarField& qNei,
-    const boolList& use,
-    vectorField& g
-) const
-{
-    const leastSquaresVectors& ls = leastSquaresVectors::New(mesh_);
-    const surfaceVectorField& pVec = ls.pVectors();
-    const surfaceVectorField& nVec = ls.nVectors();
-    const labelUList& own = mesh_.owner();
-    const labelUList& nei = mesh_.neighbour();
-
-    g = vector(Zero);
-    forAll(nei, f)
-    {
-        if (!use[f]) continue;
-        const scalar d = q[nei[f]] - q[own[f]];
-        g[own[f]] += d * pVec[f];
-        g[nei[f]] -= d * nVec[f];
-    }
-    forAll(mesh_.boundary(), patchi)
-    {
-        const fvPatch& patch = mesh_.boundary()[patchi];
-        if (!patch.coupled()) continue;
-        forAll(patch, i)
-        {
-            const label f = patch.start() + i;
-            if (!use[f]) continue;
-            const label c = patch.faceCells()[i];
-            g[c] += (qNei[f - mesh_.nInternalFaces()] - q[c])
-                * pVec.boundaryField()[patchi][i];
-        }
-    }
-}
-
-
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
 Foam::historyTransport::historyTransport(
@@ -110,7 +75,8 @@ Foam::historyTransport::historyTransport(
     mesh_(state.alpha.mesh()),
     state_(state),
     K_(bulkModulus),
-    inertia_(inertia)
+    inertia_(inertia),
+    patch_(mesh_.boundaryMesh().patchID())
 {
     entryReader read(dict);
     maxCourant_ = read.number(
@@ -394,7 +360,7 @@ Foam::historyTransport::report Foam::historyTransport::advance(
     scalarField low(nFaces), anti(nFaces), F(nFaces);
     scalarField alphaLow(nCells), alphaLeft(nCells), Pp(nCells), Pm(nCells),
         Rp(nCells);
-    scalarField Rm(nCells), out(nCells), mq(nCells);
+    scalarField Rm(nCells), out(nCells);
     vectorField g(nCells);
 
     const boolList all(nFaces, true);
@@ -548,81 +514,7 @@ Foam::historyTransport::report Foam::historyTransport::advance(
         }
         m /= V;
 
-        for (scalarField& q : q_)
-        {
-            const scalarField qNei(neighbour(q));
-            gradient(q, qNei, full, g);
-            const scalarField hx(neighbour(g.component(0)));
-            const scalarField hy(neighbour(g.component(1)));
-            const scalarField hz(neighbour(g.component(2)));
-
-            // The slope may not count on values that no neighbour has
-            scalarField least(q);
-            scalarField most(q);
-            forAll(full, f)
-            {
-                if (!full[f]) continue;
-                const label P = own[f];
-                const bool internal = f < nInternal;
-                const scalar qN =
-                    internal ? q[mesh_.neighbour()[f]] : qNei[f - nInternal];
-                least[P] = min(least[P], qN);
-                most[P] = max(most[P], qN);
-                if (internal)
-                {
-                    const label N = mesh_.neighbour()[f];
-                    least[N] = min(least[N], q[P]);
-                    most[N] = max(most[N], q[P]);
-                }
-            }
-            const scalarField leastNei(neighbour(least));
-            const scalarField mostNei(neighbour(most));
-
-            mq = mOld * q * Vold;
-            forAll(F, f)
-            {
-                if (F[f] == 0) continue;
-                const label P = own[f];
-                const bool internal = f < nInternal;
-                const label b = f - nInternal;
-                const label N = internal ? mesh_.neighbour()[f] : -1;
-                const bool forward = F[f] > 0;
-                const scalar qN = internal ? q[N]
-                    : coupled[f]           ? qNei[b]
-                                           : scalar(0);
-                scalar qF = forward ? q[P] : qN;
-                if (full[f])
-                {
-                    const vector gD = forward ? g[P]
-                        : internal            ? g[N]
-                                              : vector(hx[b], hy[b], hz[b]);
-                    const scalar s1 = (forward ? 1 : -1) * (gD & delta[f]);
-                    const scalar s2 = (forward ? 1 : -1) * (qN - q[P]);
-                    // The slope on the upwind side, from the gradient
-                    const scalar s0 = 2 * s1 - s2;
-                    if (s0 * s2 > 0)
-                    {
-                        const scalar bound = s2 > 0
-                            ? qF
-                                - (forward         ? least[P]
-                                        : internal ? least[N]
-                                                   : leastNei[b])
-                            : (forward           ? most[P]
-                                      : internal ? most[N]
-                                                 : mostNei[b])
-                                - qF;
-                        qF +=
-                            0.5 * sign(s2) * min(min(mag(s0), mag(s2)), bound);
-                    }
-                }
-                mq[P] -= F[f] * qF * dt;
-                if (internal) mq[N] += F[f] * qF * dt;
-            }
-            forAll(q, c)
-            {
-                q[c] = m[c] > 1e-12 ? mq[c] / (m[c] * V[c]) : 0;
-            }
-        }
+        moveMemory(F, dt, mOld * Vold, m * V, delta, full);
 
         forAll(alpha, c) alpha[c] = m[c] * std::exp(-q_[0][c] / K_);
     }

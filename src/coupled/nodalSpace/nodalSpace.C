@@ -7,6 +7,7 @@
 #include "globalIndex.H"
 #include "labelIOList.H"
 #include "syncTools.H"
+#include "wallPolyPatch.H"
 #include "wedgePolyPatch.H"
 #include "emptyPolyPatch.H"
 #include "processorPolyPatch.H"
@@ -399,9 +400,13 @@ void Foam::nodalSpace::setCells()
         forAll(fc, i)
         {
             const label facei = bm[patchi].start() + i;
-            forAll(faces[facei], fp)
+            // Symmetry planes are no walls that bolus could part from
+            if (isA<wallPolyPatch>(bm[patchi]))
             {
-                cellWallNormal_[fc[i]] += faceWeight(facei, fp);
+                forAll(faces[facei], fp)
+                {
+                    cellWallNormal_[fc[i]] += faceWeight(facei, fp);
+                }
             }
             if (mesh_.moving())
             {

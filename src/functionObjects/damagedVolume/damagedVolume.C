@@ -21,7 +21,7 @@ addToRunTimeSelectionTable(functionObject, damagedVolume, dictionary);
 
 Foam::string Foam::functionObjects::damagedVolume::title() const
 {
-    return "Volume of damaged bolus (D > 0.5), full geometry";
+    return "Volume of damaged bolus (D times bolus), full geometry";
 }
 
 
@@ -39,7 +39,7 @@ Foam::scalarList Foam::functionObjects::damagedVolume::values()
     );
 
     const scalar bolus = factor() * gSum(volume);
-    const scalar damaged = factor() * gSum(scalarField(pos(D - 0.5) * volume));
+    const scalar damaged = factor() * gSum(scalarField(D * volume));
 
     return scalarList({bolus, damaged, damaged / max(bolus, VSMALL)});
 }

@@ -44,8 +44,6 @@ INPUTS = {
     "overfillTime": (FLOW + "overfillTime", 0.02, "s"),
     "partingTension": (FLOW + "partingTension", 0.1, "Pa"),
     "interfaceJump": (FLOW + "interfaceJump", 0.2, "-"),
-    "gripAbove": (FLOW + "gripAbove", 0.05, "-"),
-    "fullGrip": (FLOW + "fullGrip", 0.5, "-"),
     "leastRoom": (FLOW + "leastRoom", 0.05, "-"),
     "damageAbove": (FLOW + "damageAbove", 0.1, "-"),
     "tolerance": (FLOW + "tolerance", 1e-6, "-"),
@@ -55,7 +53,7 @@ INPUTS = {
 }
 
 # Bounds of an entry, where doubling would go beyond
-LARGEST = {"transportCourant": 0.5, "fullGrip": 1.0}
+LARGEST = {"transportCourant": 0.5}
 
 
 def gastric_run(**settings) -> Path:

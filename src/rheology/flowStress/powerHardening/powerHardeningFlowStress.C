@@ -44,7 +44,7 @@ Foam::scalar Foam::flowStresses::powerHardeningFlowStress::value(
     const scalar epsP
 ) const
 {
-    return sigmaY_ + H_ * std::pow(epsP, m_);
+    return sigmaY_ + H_ * std::pow(std::max(epsP, scalar(0)), m_);
 }
 
 
