@@ -14,6 +14,11 @@ and for all the cases together
 
     curves.png    force and work per bolus mass, mass retained (its Fig. 9)
 
+and, if the first case has the table energyBalance,
+
+    energy.png    where the work of the walls went, and what of it the
+                  discretisation took
+
 The pylorus is on the right (the paper's Fig. 8 has it on the left). Only
 wedge and plane meshes have pictures of fields.
 """
@@ -37,6 +42,7 @@ from bolus_validation.fields import Case, FoamFileError, Section  # noqa: E402
 from bolus_validation.results import (  # noqa: E402
     PAPER_TIMES,
     TIME_TOLERANCE,
+    energy_shares,
     optional_table,
 )
 
@@ -348,6 +354,73 @@ def curves(paths, target: Path) -> bool:
     return drawn > 0
 
 
+# Layers of the energy picture, from below: label, columns, colour
+_LAYERS = (
+    ("elastic, kinetic", ("elastic", "slip", "kinetic"), "#4c72b0"),
+    ("plastic", ("plastic",), "#c8b08a"),
+    ("friction", ("friction",), "#55a868"),
+    ("fracture", ("fracture",), "#c44e52"),
+    ("broken bolus's viscosity", ("debris",), "#dd8452"),
+    ("void", ("void",), "#b9b4ab"),
+    (
+        "time step, transport, outflow",
+        ("relaxation", "inertiaLoss", "transport", "outflow"),
+        "#8172b3",
+    ),
+    (
+        "stabilisation",
+        ("hourglass", "overfill"),
+        "#937860",
+    ),
+)
+
+
+def energy(path, target: Path) -> bool:
+    """Where the work of the walls went; False without energyBalance."""
+    table = optional_table(path, "energyBalance")
+    if not table:
+        return False
+    figure, (left, right) = plt.subplots(
+        1, 2, figsize=(10, 4), layout="constrained"
+    )
+    below = np.zeros_like(table.time)
+    for label, columns, colour in _LAYERS:
+        above = below + 1e3 * sum(table[column] for column in columns)
+        left.fill_between(
+            table.time, below, above, color=colour, linewidth=0, label=label
+        )
+        below = above
+    left.plot(
+        table.time,
+        1e3 * (table["work"] + table["closure"]),
+        "k",
+        linewidth=1,
+        label="work of the walls",
+    )
+    left.set_ylabel("energy [mJ]")
+    left.legend(fontsize=7)
+
+    for name, share in energy_shares(table).items():
+        right.plot(table.time, 100 * share, linewidth=1.2, label=name)
+    work = np.abs(table["work"] + table["closure"]).max()
+    right.plot(
+        table.time,
+        100 * np.abs(table["residual"]) / (work if work > 0 else 1.0),
+        "k:",
+        label="residual",
+    )
+    right.set_ylabel("artificial, of the largest work [%]")
+    right.legend(fontsize=7)
+    for axes in (left, right):
+        axes.set_xlabel("t [s]")
+        axes.set_xlim(left=0)
+        axes.grid(alpha=0.3)
+    figure.suptitle(Path(path).resolve().name, fontsize=11)
+    figure.savefig(target, dpi=150)
+    plt.close(figure)
+    return True
+
+
 def draw(paths, times=PAPER_TIMES, folder: Path | None = None) -> list[Path]:
     """Draw all pictures; returns those that there was something to draw for."""
     first = Case(paths[0])
@@ -369,6 +442,8 @@ def draw(paths, times=PAPER_TIMES, folder: Path | None = None) -> list[Path]:
             made.append(folder / "overview.png")
     if curves(paths, folder / "curves.png"):
         made.append(folder / "curves.png")
+    if energy(paths[0], folder / "energy.png"):
+        made.append(folder / "energy.png")
     return made
 
 

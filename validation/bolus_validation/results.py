@@ -148,6 +148,25 @@ def _final(table: Table, name: str) -> dict:
     return value(table[name][-1], table.units[name])
 
 
+def overfull_numbers(path: Path) -> dict:
+    """Steps that overfilled a cell, and the part of the bolus passed on."""
+    for folder in reversed(Case(path).times.values()):
+        books = folder / "uniform" / "bolusBooks"
+        if books.is_file():
+            entry = dict(
+                re.findall(r"^(\w+)\s+(\S+);", books.read_text(), re.MULTILINE)
+            )
+            return {
+                "overfullSteps": value(int(entry.get("overfull", 0)), "-"),
+                "spilled": value(
+                    float(entry.get("spilled", 0)) / float(entry["initial"]),
+                    "-",
+                    of="the bolus at the start",
+                ),
+            }
+    return {}
+
+
 def run_numbers(path: Path) -> dict:
     """What the run cost: steps, Newton iterations, time, cores, cells."""
     found: dict = {}
@@ -172,6 +191,8 @@ def run_numbers(path: Path) -> dict:
             "s",
             of="the first rank",
         )
+
+    found |= overfull_numbers(path)
 
     log = path / "log.bolusFoam"
     if log.is_file():
@@ -246,7 +267,50 @@ _COLUMNS = {
         "surfaceToVolume",
     ),
     "damagedVolume": ("bolus", "damaged", "fraction"),
+    "energyBalance": (
+        "work",
+        "closure",
+        "elastic",
+        "slip",
+        "kinetic",
+        "plastic",
+        "friction",
+        "fracture",
+        "void",
+        "debris",
+        "relaxation",
+        "hourglass",
+        "overfill",
+        "transport",
+        "outflow",
+        "inertiaLoss",
+        "residual",
+        "relative",
+    ),
 }
+
+# What the energy balance would not have if the void carried nothing and the
+# mesh and the time step were infinitely fine: sums of the columns' sizes
+ARTIFICIAL = {
+    "void": ("void",),
+    "debris": ("debris",),
+    "stabilisation": ("hourglass", "overfill"),
+    "timeStep": ("relaxation", "inertiaLoss"),
+    "transport": ("transport",),
+}
+
+
+def energy_shares(table: Table) -> dict[str, np.ndarray]:
+    """What is artificial in the energy balance, (n,), of the largest work [-].
+
+    table: energyBalance. Without any work so far: 0.
+    """
+    work = np.abs(table["work"] + table["closure"]).max()
+    return {
+        name: sum(np.abs(table[column]) for column in columns)
+        / (work if work > 0 else 1.0)
+        for name, columns in ARTIFICIAL.items()
+    }
 
 
 def table_numbers(path: Path, reference: float) -> dict:
@@ -286,6 +350,12 @@ def table_numbers(path: Path, reference: float) -> dict:
                 "-",
                 reference=reference,
             )
+    energy = optional_table(path, "energyBalance")
+    if energy:
+        found["energyBalance"]["shares"] = {
+            name: value(share[-1], "-")
+            for name, share in energy_shares(energy).items()
+        }
     damage = optional_table(path, "damagedVolume")
     if damage and damage["damaged"].max() > 0:
         first = int(np.flatnonzero(damage["damaged"] > 0)[0])

@@ -31,6 +31,7 @@ FUNCTIONS = "".join(
     for name, kind, more in (
         ("retainedMass", "retainedMass", ""),
         ("freeSurface", "freeSurface", ""),
+        ("energyBalance", "energyBalance", ""),
     )
 )
 

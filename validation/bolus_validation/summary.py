@@ -59,6 +59,36 @@ _LINES = (
         "%",
         ".2g",
     ),
+    ("overfull steps", "run.overfullSteps", 1, "", "d"),
+    ("spilled", "run.spilled", 100, "% of the bolus", ".2g"),
+    (
+        "energy residual",
+        "results.energyBalance.relative.final",
+        100,
+        "% of the work",
+        ".2g",
+    ),
+    (
+        "taken by the void",
+        "results.energyBalance.shares.void",
+        100,
+        "% of the work",
+        ".2g",
+    ),
+    (
+        "by broken bolus's viscosity",
+        "results.energyBalance.shares.debris",
+        100,
+        "% of the work",
+        ".2g",
+    ),
+    (
+        "by the stabilisation",
+        "results.energyBalance.shares.stabilisation",
+        100,
+        "% of the work",
+        ".2g",
+    ),
     ("damaged", "results.damagedVolume.fraction.final", 100, "%", ".3g"),
     (
         "external surface",
@@ -96,7 +126,7 @@ def summary(path) -> str:
         if number is None:
             continue
         scaled = factor * number["value"]
-        text = f"{title:<26}{scaled:{form}} {unit}".rstrip()
+        text = f"{title:<28}{scaled:{form}} {unit}".rstrip()
         if "time" in number:
             text += f" at {number['time']:.4g} s"
         lines.append(text)
@@ -105,8 +135,8 @@ def summary(path) -> str:
     if comparison.is_file():
         count = re.search(r"^\d+ rows agree.*$", comparison.read_text(), re.M)
         if count:
-            lines.append(f"{'the paper':<26}{count.group(0).rstrip('.')}")
-            lines.append(f"{'':<26}row by row: comparison.md")
+            lines.append(f"{'the paper':<28}{count.group(0).rstrip('.')}")
+            lines.append(f"{'':<28}row by row: comparison.md")
     return "\n".join(lines) + "\n"
 
 

@@ -98,7 +98,11 @@ Foam::bolusFields::bolusFields(
     ),
     D(field<scalar>(mesh, "D", dimensionedScalar("D", dimless, 0.0))),
     soundStrain(
-        field<scalar>(mesh, "soundStrain", dimensionedScalar("e", dimless, -1.0))
+        field<scalar>(
+            mesh,
+            "soundStrain",
+            dimensionedScalar("e", dimless, -1.0)
+        )
     ),
     theta(field<scalar>(mesh, "theta", dimensionedScalar("t", dimless, 1.0))),
     pointU(

@@ -27,6 +27,7 @@ Usage
 #include "argList.H"
 #include "dynamicFvMesh.H"
 #include "bolusFields.H"
+#include "energyBooks.H"
 #include "historyTransport.H"
 #include "progress.H"
 #include "stepControl.H"
@@ -108,7 +109,8 @@ int main(int argc, char* argv[])
         mesh.solutionDict().subOrEmptyDict("transport")
     );
     stepControl control(runTime);
-    progress report(runTime, fields, control);
+    energyBooks energy(runTime, fields, law, system.inertia());
+    progress report(runTime, fields, control, energy);
 
     Info << "Starting at t = " << runTime.value() << " s" << nl << endl;
 
@@ -164,6 +166,7 @@ int main(int argc, char* argv[])
 
         fields.damage(system.damageAbove());
         fields.derive();
+        energy.step(system, runTime.deltaTValue());
 
         control.done(solved.iterations, moved.bulkCourant);
         report.step(solved, moved);

@@ -9,11 +9,13 @@
 Foam::progress::progress(
     const Time& time,
     const bolusFields& fields,
-    const stepControl& control
+    const stepControl& control,
+    const energyBooks& energy
 ) :
     time_(time),
     fields_(fields),
     control_(control),
+    energy_(energy),
     lastLine_(-GREAT),
     startTime_(time.value()),
     books_(IOobject(
@@ -142,7 +144,9 @@ void Foam::progress::summary() const
          << "    overfull steps   " << overfull_ << " (alpha above 1.01)" << nl
          << "    spilled          " << spilled_ / initial_ << " of the bolus"
          << nl << "    alpha            " << alphaMin_ << " to " << alphaMax_
-         << nl << "    clock time       " << clock_.elapsedTime() << " s" << nl
+         << nl;
+    energy_.report();
+    Info << "    clock time       " << clock_.elapsedTime() << " s" << nl
          << endl;
 }
 

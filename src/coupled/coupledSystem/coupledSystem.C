@@ -301,11 +301,16 @@ void Foam::coupledSystem::accept(
     scalarField pressure(mesh_.nCells());
     DynamicList<scalar> R;
 
+    power_ = stepPower();
+    elasticEnergy_.setSize(mesh_.nCells());
+    const boolList held(heldNodes());
+
     forAll(pCell_, c)
     {
         cellResult r;
         evaluate(c, r);
         internalForce(c, r, R);
+        bookPower(c, r, R, held);
         forAll(R, i)
         {
             const label j = space_.cellStart()[c] + i;
@@ -322,10 +327,16 @@ void Foam::coupledSystem::accept(
             const label i =
                 contactFaces_[c][fi] - mesh_.boundaryMesh()[patchi].start();
             contact k;
-            elasticSlip_.boundaryFieldRef()[patchi][i] =
-                evaluateContact(c, fi, r, k)
-                ? k.law->retained(mag(k.slip)) * k.slip
-                : vector(Zero);
+            vector& g = elasticSlip_.boundaryFieldRef()[patchi][i];
+            if (evaluateContact(c, fi, r, k))
+            {
+                g = k.law->retained(mag(k.slip)) * k.slip;
+                bookFriction(k, mag(g));
+            }
+            else
+            {
+                g = Zero;
+            }
         }
 
         state_.stress[c] = r.dev + r.P * symmTensor::I;
@@ -381,6 +392,7 @@ void Foam::coupledSystem::accept(
         P == power;
     }
     wallForces(force, rowForce, wallForce, wallPower);
+    bookWalls(pressure, wallPower);
 }
 
 

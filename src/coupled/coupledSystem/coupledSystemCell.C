@@ -24,12 +24,12 @@ void Foam::coupledSystem::evaluate(const label c, cellResult& r) const
     const scalar a = a_[c];
     const scalar p = pCell_[c];
     const scalar dilation = -(p - pOld_[c]) / (K * deltaT_);
-    const scalar growth = div - a * dilation - overfill_[c];
+    r.growth = div - a * dilation - overfill_[c];
 
     if (a > SMALL)
     {
         law_.update(
-            r.gradU - growth * tensor(N_[c]),
+            r.gradU - r.growth * tensor(N_[c]),
             deltaT_,
             state_.deviator[c],
             state_.epsilonPEq[c],
@@ -45,7 +45,7 @@ void Foam::coupledSystem::evaluate(const label c, cellResult& r) const
     r.pv = p - (N_[c] && r.r.s);
     scalar rate;
     void_.rate(r.pv, a, room_[c], phi_[c], deltaT_, rate, r.drdpv);
-    r.residual = growth + rate;
+    r.residual = r.growth + rate;
 
     r.P = -(a * p + (1 - a) * r.pv);
     r.dev = a * r.r.s + (2 * eta_[c]) * dev(symm(r.gradU));
@@ -157,7 +157,8 @@ bool Foam::coupledSystem::evaluateContact(
     g -= (g & k.n) * k.n;
     if (mag(g) > VSMALL) g *= magG / mag(g);
 
-    k.slip = g + (deltaT_ / k.area) * v;
+    k.step = (deltaT_ / k.area) * v;
+    k.slip = g + k.step;
     k.change = deltaT_ / k.area * mag(vLast);
     return true;
 }

@@ -502,7 +502,7 @@ Foam::historyTransport::report Foam::historyTransport::advance(
             const scalar aN = f < nInternal ? alpha[mesh_.neighbour()[f]]
                 : coupled[f]                ? alphaNei[f - nInternal]
                                             : 0;
-            full[f] = alpha[own[f]] > 0.9 && aN > 0.9;
+            full[f] = alpha[own[f]] > 0.05 && aN > 0.05;
         }
 
         const scalarField mOld(m);

@@ -50,6 +50,7 @@ void Foam::historyTransport::faceValues(
     const scalarField& F,
     const vectorField& delta,
     const boolList& full,
+    const scalarField& stays,
     scalarField& qF
 ) const
 {
@@ -83,11 +84,12 @@ void Foam::historyTransport::faceValues(
     }
     const scalarField leastNei(neighbour(least));
     const scalarField mostNei(neighbour(most));
+    const scalarField staysNei(neighbour(stays));
 
     // What an open boundary lets in has no memory
     auto at = [&](const scalarField& cells, const scalarField& beyond, label f)
     {
-        return f < nInternal                  ? cells[nei[f]]
+        return f < nInternal ? cells[nei[f]]
             : mesh_.boundary()[patch_[f - nInternal]].coupled()
             ? beyond[f - nInternal]
             : scalar(0);
@@ -113,13 +115,16 @@ void Foam::historyTransport::faceValues(
         const scalar up = 2 * sign * (gD & delta[f]) - down;
         if (up * down <= 0) continue;
 
-        const scalar bound = down > 0
+        // What leaves with more than the cell's value, leaves the rest with
+        // less: no less than a neighbour has
+        const scalar room = down > 0
             ? qD - (forward ? least[P] : at(least, leastNei, f))
             : (forward ? most[P] : at(most, mostNei, f)) - qD;
-        const scalar slope = min(
-            min(0.5 * mag(up + down), 2 * mag(up)),
-            2 * min(mag(down), bound)
-        );
+        const scalar rest = forward ? stays[P] : at(stays, staysNei, f);
+        const scalar bound = room * min(rest / max(1 - rest, SMALL), scalar(1));
+        const scalar slope =
+            min(min(mag(up + 2 * down) / 3, 2 * mag(up)),
+                2 * min(mag(down), bound));
         qF[f] += 0.5 * (down > 0 ? slope : -slope);
     }
 }
@@ -149,23 +154,46 @@ void Foam::historyTransport::moveMemory(
         }
         forAll(result, c)
         {
-            result[c] = massNew[c] > 1e-12 * mesh_.V()[c]
-                ? result[c] / massNew[c]
-                : 0;
+            result[c] =
+                massNew[c] > 1e-12 * mesh_.V()[c] ? result[c] / massNew[c] : 0;
         }
         return result;
     };
 
-    // Heun: faces at the start, and once more with what comes of that
+    // Part of a cell's mass that stays in it
+    scalarField stays(massOld.size(), Zero);
+    forAll(F, f)
+    {
+        if (F[f] > 0)
+            stays[own[f]] += F[f] * dt;
+        else if (f < nInternal)
+            stays[nei[f]] -= F[f] * dt;
+    }
+    forAll(stays, c)
+    {
+        const scalar all = max(massOld[c], 1e-12 * mesh_.V()[c]);
+        stays[c] = max(1 - stays[c] / all, scalar(0));
+    }
+
+    // Heun: faces at the start, and once more with what comes of that; not
+    // where a cell empties, whose rest would take the difference alone
+    const scalarField staysNei(neighbour(stays));
+    boolList heun(full);
+    forAll(heun, f)
+    {
+        const scalar beyond =
+            f < nInternal ? stays[nei[f]] : staysNei[f - nInternal];
+        heun[f] = full[f] && min(stays[own[f]], beyond) > 0.5;
+    }
     scalarField first(F.size());
     scalarField second(F.size());
     for (scalarField& q : q_)
     {
-        faceValues(q, F, delta, full, first);
-        faceValues(move(q, first), F, delta, full, second);
+        faceValues(q, F, delta, full, stays, first);
+        faceValues(move(q, first), F, delta, full, stays, second);
         forAll(first, f)
         {
-            if (full[f]) first[f] = 0.5 * (first[f] + second[f]);
+            if (heun[f]) first[f] = 0.5 * (first[f] + second[f]);
         }
         q = move(q, first);
     }

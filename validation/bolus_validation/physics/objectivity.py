@@ -558,8 +558,6 @@ def translation_study(folder: Path, quick: bool) -> Findings:
             "The mesh moves and the bolus rests: for the transport the same "
             "as a bolus that moves, without walls that would load it. Inertia "
             "keeps it at rest.",
-            "On fine meshes the stress grows: the memory's face values are "
-            "those of the start of a sub-step.",
         ]
     )
     _disc_meshes(found, folder, quick, "translation", 2.5, SHIFT)

@@ -1,0 +1,339 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Copyright (C) 2026 the bolusFoam developers
+"""Break each mechanism once and see that its test fails.
+
+Works on a copy of the sources under run/validate/mutations: each mutation is
+built there, its test has to fail, and the copy is mended again. What was found
+is kept in mutations.json; a study that was stopped goes on.
+"""
+
+import argparse
+import hashlib
+import json
+import os
+import shutil
+import subprocess
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+
+ROOT = Path(__file__).parents[2]
+BASE = ROOT / "run" / "validate" / "mutations"
+TREE = BASE / "tree"
+
+COUPLED = ("src/coupled",)
+RHEOLOGY = ("src/rheology",)
+CELL = "src/coupled/coupledSystem/coupledSystemCell.C"
+SYSTEM = "src/coupled/coupledSystem/coupledSystem.C"
+ENERGY = "src/coupled/coupledSystem/coupledSystemEnergy.C"
+SPACE = "src/coupled/nodalSpace/nodalSpace.C"
+MEMORY = "src/coupled/historyTransport/historyTransportMemory.C"
+TRANSPORT = "src/coupled/historyTransport/historyTransport.C"
+POINT = "src/rheology/elastoViscoPlastic/elastoViscoPlasticI.H"
+SOLVER = ("applications/solvers/bolusFoam",)
+
+
+@dataclass(frozen=True)
+class Mutation:
+    """What is broken: text old -> new in file; build: folders to build; test:
+    arguments of pytest under validation/tests that have to fail."""
+
+    name: str
+    file: str
+    old: str
+    new: str
+    build: tuple
+    test: str
+
+
+MUTATIONS = (
+    Mutation(
+        "radial return with 2 G for 3 G",
+        "src/rheology/radialReturn/radialReturn.C",
+        "slopeElastic = 3 * G_ * dt",
+        "slopeElastic = 2 * G_ * dt",
+        RHEOLOGY,
+        "test_rheology.py",
+    ),
+    Mutation(
+        "stress does not turn with the bolus",
+        POINT,
+        "r.sRot = symm(Q & sOld & Q.T());",
+        "r.sRot = sOld;",
+        (*RHEOLOGY, *COUPLED, "applications/utilities/materialPoint"),
+        "test_rheology.py -k shear",
+    ),
+    Mutation(
+        "consistent tangent 10 % off in plastic flow",
+        POINT,
+        "((r.dqdqTrial - r.theta)",
+        "((0.9 * r.dqdqTrial - r.theta)",
+        COUPLED,
+        "test_solver.py -k tangent_equals",
+    ),
+    Mutation(
+        "flow stress of the lower end of the table's interval",
+        "src/rheology/flowStress/tabulated/tabulatedFlowStress.C",
+        "return stresses_[i] + fraction *",
+        "return stresses_[i] + 0 * fraction *",
+        RHEOLOGY,
+        "test_rheology.py -k tabulated",
+    ),
+    Mutation(
+        "damage whatever the triaxiality",
+        "src/rheology/damageModel/triaxialOnsetDamage/triaxialOnsetDamage.H",
+        "epsP > epsilonPEq0_ && eta > eta0_",
+        "epsP > epsilonPEq0_ && eta < GREAT",
+        RHEOLOGY,
+        "test_physics_contact.py -k noFracture",
+    ),
+    Mutation(
+        "damage at twice the plastic strain",
+        "src/rheology/damageModel/triaxialOnsetDamage/triaxialOnsetDamage.H",
+        "epsP > epsilonPEq0_ &&",
+        "epsP > 2 * epsilonPEq0_ &&",
+        RHEOLOGY,
+        "test_solver.py -k breaks_at_the_plastic_strain",
+    ),
+    Mutation(
+        "damaged bolus keeps its tension",
+        SYSTEM,
+        "phi_[c] = damaged_[c] || atWall",
+        "phi_[c] = atWall",
+        COUPLED,
+        "test_solver.py -k damaged_bar_carries_no_force_in_tension",
+    ),
+    Mutation(
+        "damaged bolus loses its pressure",
+        CELL,
+        "r.P = -(a * p + (1 - a) * r.pv);",
+        "r.P = -(damaged_[c] ? 0 : 1) * (a * p + (1 - a) * r.pv);",
+        COUPLED,
+        "test_solver.py -k damaged_bar_carries_pressure",
+    ),
+    Mutation(
+        "broken bolus breaks its neighbours",
+        "applications/solvers/bolusFoam/bolusFields.C",
+        "soundStrain[c] / (1 - D[c])",
+        "epsilonPEq[c]",
+        SOLVER,
+        "test_physics_contact.py -k barInTension",
+    ),
+    Mutation(
+        "a wall pulls",
+        SYSTEM,
+        "phi_[c] = damaged_[c] || atWall",
+        "phi_[c] = damaged_[c]",
+        COUPLED,
+        "test_solver.py -k pulled_away",
+    ),
+    Mutation(
+        "no friction",
+        CELL,
+        "if (k.pn <= 0) return false;",
+        "return false;",
+        COUPLED,
+        "test_solver.py -k sliding_block",
+    ),
+    Mutation(
+        "friction fades where the bolus ends",
+        CELL,
+        "k.grip = a_[c];",
+        "k.grip = sqr(a_[c]);",
+        COUPLED,
+        "test_physics_contact.py -k slidingBlock",
+    ),
+    Mutation(
+        "symmetry planes count as walls to part from",
+        SPACE,
+        "if (isA<wallPolyPatch>(bm[patchi]))",
+        "if (true)",
+        COUPLED,
+        "test_physics_contact.py -k separation",
+    ),
+    Mutation(
+        "the closed lumen is not sealed",
+        SPACE,
+        'foundObject<labelIOList>("closedPoints")',
+        'foundObject<labelIOList>("none")',
+        COUPLED,
+        "test_gastric.py -k closed_pylorus",
+    ),
+    Mutation(
+        "pressures wrongly condensed",
+        "src/coupled/condensedTangent/condensedTangent.C",
+        "- b * C_[start + j]",
+        "- 0.5 * b * C_[start + j]",
+        COUPLED,
+        "test_solver.py -k plateau_equals",
+    ),
+    Mutation(
+        "transport loses a thousandth of what leaves a cell",
+        TRANSPORT,
+        "m[own[f]] -= F[f] * dt;",
+        "m[own[f]] -= 1.001 * F[f] * dt;",
+        COUPLED,
+        "test_solver.py -k mass_stays",
+    ),
+    Mutation(
+        "memory is carried by the receiving cell's value",
+        MEMORY,
+        "const scalar qD = forward ? q[P] : qN;",
+        "const scalar qD = forward ? qN : q[P];",
+        COUPLED,
+        "test_physics.py -k rotation",
+    ),
+    Mutation(
+        "waves with exponent 6 for 5",
+        "src/motility/antralWaves/antralWaves.C",
+        "std::pow(1 - sqr(s), exponent_)",
+        "std::pow(1 - sqr(s), exponent_ + 1)",
+        ("src/motility",),
+        "test_motility.py",
+    ),
+    Mutation(
+        "wall 1e-6 off its radius",
+        "src/motility/lumenMotion/lumenMotion.H",
+        "wall_.radius(x, referenceTime_) - 1)",
+        "wall_.radius(x, referenceTime_) - 1 + 1e-6)",
+        ("src/motility",),
+        "test_motility.py",
+    ),
+    Mutation(
+        "plastic dissipation 5 % too large",
+        ENERGY,
+        "rate * r.r.q * r.r.dEpsP;",
+        "1.05 * rate * r.r.q * r.r.dEpsP;",
+        COUPLED,
+        "test_energy.py -k dissipates_stress",
+    ),
+    Mutation(
+        "friction work 5 % too large",
+        ENERGY,
+        "area * factor * (k.slip & k.step)",
+        "1.05 * area * factor * (k.slip & k.step)",
+        COUPLED,
+        "test_energy.py -k friction_takes",
+    ),
+    Mutation(
+        "external work with half the power",
+        "src/functionObjects/externalWork/externalWork.C",
+        "work_ += power() *",
+        "work_ += 0.5 * power() *",
+        ("src/functionObjects",),
+        "test_function_objects.py",
+    ),
+    Mutation(
+        "tangential force counted as normal",
+        "src/functionObjects/contactForce/contactForce.C",
+        "normal += Fn;",
+        "normal += mag(F[i]);",
+        ("src/functionObjects",),
+        "test_function_objects.py",
+    ),
+)
+
+
+def environment() -> dict:
+    """Programs and libraries of the copy first."""
+    names = {"FOAM_USER_LIBBIN": TREE / "lib", "FOAM_USER_APPBIN": TREE / "bin"}
+    paths = {"LD_LIBRARY_PATH": TREE / "lib", "PATH": TREE / "bin"}
+    return (
+        os.environ
+        | {name: str(path) for name, path in names.items()}
+        | {n: f"{p}:{os.environ.get(n, '')}" for n, p in paths.items()}
+    )
+
+
+def build(folder: str) -> None:
+    """wmake a folder of the copy."""
+    library = ["libso"] if folder.startswith("src") else []
+    done = subprocess.run(
+        ["wmake", *library],
+        cwd=TREE / folder,
+        env=environment(),
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    if done.returncode:
+        sys.exit(f"mutations: {folder} does not build\n{done.stderr[-2000:]}")
+
+
+def write(path: Path, text: str, folders) -> None:
+    """Change a file of the copy and build what depends on it."""
+    path.write_text(text)
+    for folder in folders:
+        build(folder)
+
+
+def failing(test: str) -> bool:
+    """Whether a test fails with the copy; it must have run."""
+    file, *more = test.split()
+    done = subprocess.run(
+        [
+            *(sys.executable, "-m", "pytest", "-q", "-x"),
+            *("-p", "no:cacheprovider"),
+            f"validation/tests/{file}",
+            *more,
+        ],
+        cwd=ROOT,
+        env=environment(),
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    if done.returncode not in (0, 1):
+        sys.exit(f"mutations: {test} did not run\n{done.stdout[-2000:]}")
+    return done.returncode == 1
+
+
+def fresh_copy() -> None:
+    """Sources with what is built of them, so that little is built again."""
+    shutil.rmtree(TREE, ignore_errors=True)
+    for name in ("src", "applications"):
+        shutil.copytree(
+            ROOT / name, TREE / name, symlinks=True, dirs_exist_ok=True
+        )
+    for name, source in (
+        ("lib", "FOAM_USER_LIBBIN"),
+        ("bin", "FOAM_USER_APPBIN"),
+    ):
+        shutil.copytree(os.environ[source], TREE / name, symlinks=True)
+
+
+def main(names) -> int:
+    """Run the mutations, or those whose name holds one of the words given."""
+    store = BASE / "mutations.json"
+    seen = json.loads(store.read_text()) if store.exists() else {}
+    chosen = [
+        m for m in MUTATIONS if not names or any(n in m.name for n in names)
+    ]
+    fresh_copy()
+    for number, m in enumerate(chosen, 1):
+        path = TREE / m.file
+        sound = path.read_text()
+        if sound.count(m.old) != 1:
+            sys.exit(
+                f"mutations: {m.name}: {m.file} holds {m.old!r} "
+                f"{sound.count(m.old)} times; once is needed"
+            )
+        key = hashlib.sha256(repr((sound, m)).encode()).hexdigest()
+        if seen.get(m.name, {}).get("key") != key:
+            write(path, sound.replace(m.old, m.new), m.build)
+            caught = failing(m.test)
+            write(path, sound, m.build)
+            seen[m.name] = {"key": key, "caught": caught, "test": m.test}
+            store.write_text(json.dumps(seen, indent=1))
+        verdict = "caught" if seen[m.name]["caught"] else "NOT CAUGHT"
+        print(
+            f"  {number}/{len(chosen)}  {verdict}: {m.name} ({m.test})",
+            flush=True,
+        )
+    return 0 if all(seen[m.name]["caught"] for m in chosen) else 1
+
+
+if __name__ == "__main__":
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("names", nargs="*", help="words; default: all")
+    sys.exit(main(parser.parse_args().names))
