@@ -60,8 +60,8 @@ MUTATIONS = (
         POINT,
         "r.sRot = symm(Q & sOld & Q.T());",
         "r.sRot = sOld;",
-        (*RHEOLOGY, *COUPLED, "applications/utilities/materialPoint"),
-        "test_rheology.py -k shear",
+        COUPLED,
+        "test_physics.py -k shear",
     ),
     Mutation(
         "consistent tangent 10 % off in plastic flow",

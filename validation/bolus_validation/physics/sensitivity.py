@@ -32,9 +32,9 @@ VOID = "constant/bolusProperties:void."
 
 # Name: (entry, value of the tutorial, unit)
 INPUTS = {
-    "voidCompliance": (VOID + "zeta", 100, "Pa s"),
-    "voidViscosity": (VOID + "eta", 10, "Pa s"),
-    "damagedViscosity": (VOID + "etaDamaged", 20, "Pa s"),
+    "voidCompliance": (VOID + "zeta", 50, "Pa s"),
+    "voidViscosity": (VOID + "eta", 2, "Pa s"),
+    "damagedViscosity": (VOID + "etaDamaged", 5, "Pa s"),
     "voidCorner": (VOID + "delta", 20, "Pa"),
     "voidSeal": (VOID + "seal", 0.02, "-"),
     "voidClosing": (VOID + "closing", 0.5, "-"),
