@@ -153,18 +153,18 @@ def test_wall_presses_after_7_s_and_not_before_6_s(standard):
     force = read_table(standard, "contactForce")
     peak = force["total"].max()
     # The wave's foot reaches the bolus at 6.7 s. Before, the void, which is
-    # viscous (10 Pa s in this case), transmits 1 % of the force at 8 s, which
+    # viscous, transmits up to 1 % of the force at 8 s, which
     # is itself small against that of the later waves
     assert peak > 1
-    assert force["total"][force.time < 6].max() < 0.015 * peak
+    assert force["total"][force.time < 6].max() < 0.008 * peak
     assert force["total"][force.time > 7].min() > 0.3 * peak
     # Friction: at least a tenth of the sticking limit, at most mu times the
     # normal force (the sums are over faces, the bound holds for each)
     last = force["tangential"][-1] / force["normal"][-1]
     assert 0.09 < last < 0.9 * (1 + 1e-3)
     # A wall cannot pull. What does, is the rim of the contact, where cells are
-    # half full: 4.2 % of the pressing force for an instant, while it breaks
-    assert force["tensile"].max() < 0.05 * peak
+    # half full: 0.7 % of the pressing force for an instant, while it breaks
+    assert force["tensile"].max() < 0.012 * peak
 
 
 def test_wave_does_work_on_the_bolus(standard):
