@@ -174,7 +174,7 @@ def solver_hash() -> str:
         path
         for folder in SOURCES
         for path in sorted((ROOT / folder).rglob("*"))
-        if path.suffix in (".C", ".H", ".py", "")
+        if path.suffix not in (".md", ".pyc")
         and not any(part.startswith("linux") for part in path.parts)
     )
 
