@@ -105,6 +105,16 @@ Foam::bolusFields::bolusFields(
         )
     ),
     theta(field<scalar>(mesh, "theta", dimensionedScalar("t", dimless, 1.0))),
+    pStart(
+        IOobject(
+            "pStart",
+            mesh.time().timeName(),
+            mesh,
+            IOobject::READ_IF_PRESENT,
+            IOobject::AUTO_WRITE
+        ),
+        p
+    ),
     pointU(
         IOobject(
             "pointU",
@@ -163,6 +173,7 @@ Foam::bolusFields::bolusFields(
         theta,
         pointU,
         elasticSlip,
+        pStart,
         stress,
         phiRel
     }
@@ -193,7 +204,7 @@ template<class Operation>
 void Foam::bolusFields::forState(const Operation& op)
 {
     volScalarField* scalars[] = {
-        &alpha, &mass, &p, &epsilonPEq, &D, &soundStrain, &theta
+        &alpha, &mass, &p, &epsilonPEq, &D, &soundStrain, &theta, &pStart
     };
     volVectorField* vectors[] = {&U, &elasticSlip};
     volSymmTensorField* tensors[] = {&deviator, &stress};

@@ -288,7 +288,7 @@ void Foam::coupledSystem::accept(
 )
 {
     gather(x_);
-    pLast_ = pCell_;
+    state_.pStart.primitiveFieldRef() = pCell_;
 
     vectorField& v = state_.pointU.primitiveFieldRef();
     space_.toPoints(q_, v);

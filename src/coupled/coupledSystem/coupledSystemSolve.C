@@ -313,9 +313,7 @@ const Foam::coupledSystem::report& Foam::coupledSystem::solve(
                 / U0_;
         }
     }
-    // The pressure stands rather than moves with the bolus where it flows on
-    const scalarField& p = pLast_.size() ? pLast_ : pOld_;
-    forAll(p, c) v[i++] = p[c] / P0_;
+    for (const scalar p : state_.pStart) v[i++] = p / P0_;
     VecRestoreArray(x_, &v);
 
     gather(x_);

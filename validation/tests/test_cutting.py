@@ -1,0 +1,337 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Copyright (C) 2026 the bolusFoam developers
+"""Rigid tools: limit analysis, ripple, contact, bad input (issue 4, line 6).
+
+On coarse meshes; ./Allrun validate cutting runs the fine ones.
+"""
+
+import shutil
+
+import numpy as np
+import pytest
+from bolus_validation import cutting
+from bolus_validation.cutting_cases import (
+    ROUGH,
+    copy_tutorial,
+    embedded,
+    embedded_force,
+    force,
+    prepare,
+)
+from bolus_validation.fields import read_mesh
+from bolus_validation.results import read_table
+from bolus_validation.specimens import replace, run_case, solve
+from bolus_validation.synthetic import run
+
+# Four cells per diameter: some 300 cells, 10 mm of travel in a few seconds
+COARSE = {
+    "cellSize": 1.25e-3,
+    "boxCells": 1,
+    "nearCells": 3,
+    "nearGrowth": 1.5,
+    "growthAhead": 1.1,
+    "growthBehind": 1.2,
+    "growthSide": 1.15,
+    "cellBehind": 5e-4,
+    "zoneAhead": 1.25e-3,
+    "zoneBehind": 1.25e-3,
+    "travelStep": 2.5e-4,
+}
+SHORT = COARSE | {"travel": 0.003, "writeTravel": 0.003}
+
+
+@pytest.fixture(scope="session")
+def folder(tmp_path_factory):
+    """Where the cases of this file run."""
+    return tmp_path_factory.mktemp("cutting")
+
+
+# --- force -------------------------------------------------------------------
+
+
+@pytest.fixture(scope="session")
+def rough(folder):
+    """An embedded rough cylinder, over two cells: travel / R, F/(s_u d T)."""
+    case = embedded(
+        folder / "rough", 6, travel=0.7, steps=24, far=8, nearCells=5
+    )
+    return embedded_force(case)
+
+
+def test_a_rough_cylinder_in_a_perfectly_plastic_body(rough):
+    # Randolph and Houlsby (1984), 11.94. Found 3.3 % above it; at 10 cells per
+    # diameter 1.7 %: the layer that slips is half a cell off the tool
+    _, along = rough
+    assert along[-1] == pytest.approx(ROUGH, rel=0.05)
+
+
+def test_the_force_does_not_ripple_as_the_tool_crosses_cells(rough):
+    # 2 % asked for; found 1e-4: the mesh goes with the tool
+    way, along = rough
+    steady = along[way > 0.2]
+    assert np.ptp(steady) / steady.mean() < 0.002
+
+
+@pytest.fixture(scope="session")
+def pressed(folder):
+    """toolForce of the cylinder pressed 3 mm into the block, by friction."""
+    found = {}
+    for friction in ("coulomb", "none"):
+        case = prepare(folder / friction, **SHORT, friction=friction)
+        solve(case)
+        found[friction] = case
+    return found
+
+
+def test_friction_resists_and_none_means_none(pressed):
+    rub, slide = (force(pressed[name]) for name in ("coulomb", "none"))
+    assert rub["axialFriction"][-1] > 0.05 * rub["axial"][-1]
+    assert rub["axial"][-1] > 1.05 * slide["axial"][-1]
+    # The force at a node is along its normal, 7.5 degrees off those of the two
+    # flat faces: 1 - cos^2, 1.7 % of it, counts as along them. Found 2.2 %
+    assert abs(slide["axialFriction"][-1]) < 0.03 * slide["axial"][-1]
+
+
+def test_tool_and_platen_are_in_balance(pressed):
+    # What the tool presses with arrives at the platen, but for the inertia of
+    # the first step, in which the tool starts at once: found 2e-4
+    for case in pressed.values():
+        tool = force(case)["axial"]
+        platen = read_table(case, "platenForce", "contactForce")["axial"]
+        assert platen == pytest.approx(tool, rel=0, abs=5e-4 * tool.max())
+
+
+def test_the_tool_does_not_pull_and_mass_is_kept(pressed):
+    for case in pressed.values():
+        table = force(case)
+        assert np.max(table["tensile_mesh"]) < 0.01 * np.max(table["axial"])
+        steps = read_table(case, "solver", "steps")
+        assert np.max(abs(steps["massError"])) < 1e-9
+
+
+def test_travel_is_the_integral_of_the_speed(pressed):
+    table = force(pressed["coulomb"])
+    assert table["travel"] == pytest.approx(0.0025 * table.time, rel=1e-9)
+    assert table["travel"][-1] == pytest.approx(0.003, rel=1e-9)
+
+
+def test_a_tool_that_leaves_the_bolus_again_carries_no_force(folder):
+    # In by 1 mm and out by 3 mm: 2 mm above the block. Six cells per diameter:
+    # on four, crumbs on the way carry three times as much
+    case = prepare(
+        folder / "retreat",
+        **SHORT
+        | {
+            "cellSize": 8.3333e-4,
+            "nearCells": 5,
+            "zoneAhead": 1.6e-3,
+            "zoneBehind": 1.6e-3,
+        },
+    )
+    replace(
+        case / "constant" / "dynamicMeshDict",
+        r"speed\s+\$:speed;",
+        "history ((0 0.0025) (0.4 0.0025) (0.401 -0.0025) (2 -0.0025));",
+    )
+    replace(
+        case / "system" / "derivedParameters",
+        r"endTime\s[^;]*;",
+        "endTime 1.6;",
+    )
+    solve(case)
+    table = force(case)
+    assert table["travel"][-1] == pytest.approx(-0.002, abs=5e-6)
+    # What is left is crumbs and the void's viscosity: found 0.7 % of the
+    # largest force at 1 mm above the block, 0.4 % at 2 mm; at ten cells per
+    # diameter 0.3 % at 1 mm
+    away = table["travel"] < -1e-3
+    assert np.max(abs(table["axial"][away])) < 0.01 * np.max(table["axial"])
+
+
+def test_two_ranks_give_the_serial_answer(folder):
+    options = [
+        word
+        for name, x in (SHORT | {"travel": 0.001, "writeTravel": 0.001}).items()
+        for word in (
+            "-set",
+            f"{name}={x}"
+            if name in ("travel", "cellSize", "boxCells")
+            else f"system/caseParameters:{name}={x}",
+        )
+    ]
+    tables = []
+    for n in (1, 2):
+        case = folder / f"ranks{n}"
+        run_case("cutting/cylinder2D", *options, "-np", n, "-out", case)
+        tables.append(force(case))
+    for column in ("axial", "axialFriction", "torque_mesh", "lateral_mesh"):
+        a, b = (t[column] for t in tables)
+        assert b == pytest.approx(a, rel=0, abs=1e-5 * np.max(abs(a)))
+
+
+# --- mesh --------------------------------------------------------------------
+
+
+def test_the_block_is_filled_exactly(folder):
+    # Also the cells that its top cuts around the tool
+    case = prepare(folder / "filled", **SHORT)
+    p = cutting.read_parameters(case / "system" / "caseParameters")
+    mesh = read_mesh(case / "constant" / "polyMesh")
+    volume = cutting.block_fraction(mesh, p) @ mesh.cell_volumes
+    assert volume == pytest.approx(
+        0.5 * p.width * p.height * p.thickness, rel=1e-9
+    )
+    area = np.linalg.norm(
+        mesh.face_areas[mesh.patches["tool"].faces].sum(axis=0)
+    )
+    assert area == pytest.approx(p.diameter * p.thickness, rel=1e-9)
+
+
+def test_layers_along_the_tool_give_a_solid_mesh(folder):
+    case = prepare(folder / "solid", **SHORT, cellsThrough=3, roomThrough=0.01)
+    p = cutting.read_parameters(case / "system" / "caseParameters")
+    mesh = read_mesh(case / "constant" / "polyMesh")
+    assert "frontAndBack" not in mesh.patches
+    volume = cutting.block_fraction(mesh, p) @ mesh.cell_volumes
+    assert volume == pytest.approx(
+        0.5 * p.width * p.height * p.thickness, rel=1e-9
+    )
+
+
+# --- bad input ---------------------------------------------------------------
+
+
+@pytest.fixture(scope="session")
+def sound(folder):
+    """A small case that is in order, not yet run."""
+    return prepare(folder / "sound", **(SHORT | {"travel": 0.0005}))
+
+
+def test_the_case_in_order_runs(sound, tmp_path):
+    shutil.copytree(sound, tmp_path / "case")
+    run(tmp_path / "case", "bolusFoam")
+
+
+MOTION = "constant/dynamicMeshDict"
+
+BAD = {
+    # what: file, pattern, replacement, words that the message must have
+    "starts inside the bolus": (
+        "0/alpha",
+        r"(?s)internalField.*?\nboundary",
+        "internalField uniform 1;\nboundary",
+        ["embedded", "tool", "alpha 1", "<= 0.5"],
+    ),
+    "leaves the mesh": (
+        MOTION,
+        r"speed\s+\$:speed;",
+        "speed 1;",
+        ["'speed'", "leaves the mesh", "0.2 m", "valid are travels"],
+    ),
+    "thinner than three cells": (
+        MOTION,
+        r"patch\s+tool;\s+direction[^;]*;",
+        "patch platen; direction (1 0 0);",
+        ["platen", "cells", "at least 3"],
+    ),
+    "history does not cover the run": (
+        MOTION,
+        r"speed\s+\$:speed;",
+        "history ((0 0.0025) (0.1 0.0025));",
+        ["'history'", "0.1 s", "cover", "0.2 s"],
+    ),
+    "history out of order": (
+        MOTION,
+        r"speed\s+\$:speed;",
+        "history ((0 0.0025) (1 0.0025) (0.5 0));",
+        ["'history'", "not sorted", "0.5", "increase"],
+    ),
+    "two speeds": (
+        MOTION,
+        r"speed\s+\$:speed;",
+        "speed 1; history ((0 0) (1 0));",
+        ["'speed'", "'history'", "one of them"],
+    ),
+    "unknown patch": (
+        MOTION,
+        r"patch\s+tool;",
+        "patch knife;",
+        ["'patch'", "knife", "tool", "platen"],
+    ),
+    "no direction": (
+        MOTION,
+        r"direction\s+[^;]*;",
+        "direction (0 0 0);",
+        ["'direction'", "(0 0 0)", "length > 0"],
+    ),
+    "no zone": (
+        MOTION,
+        r"rigidZone\s+[^;]*;",
+        "rigidZone (0 1e-3);",
+        ["'rigidZone'", "(0 0.001)", "> 0"],
+    ),
+    "misspelt entry": (
+        MOTION,
+        r"rigidZone\s",
+        "stiffZone ",
+        ["stiffZone", "rigidZone"],
+    ),
+    "force without direction": (
+        "system/controlDict",
+        r"direction\s+[^;]*;",
+        "",
+        ["direction", "missing", "length > 0"],
+    ),
+}
+
+
+@pytest.mark.parametrize("what", BAD)
+def test_bad_input_is_one_clear_error_before_the_first_step(
+    sound, tmp_path, what
+):
+    file, pattern, by, words = BAD[what]
+    case = tmp_path / "case"
+    shutil.copytree(sound, case)
+    replace(case / file, pattern, by)
+    output = run(case, "bolusFoam", ok=False)
+    assert output.count("FOAM FATAL") == 1, output[-2000:]
+    assert "Newton" not in output
+    message = " ".join(output[output.index("FOAM FATAL") :].split())
+    assert [word for word in words if word not in message] == [], message
+
+
+@pytest.mark.parametrize(
+    "entries, words",
+    [
+        ({"cellSize": 2e-3}, ["diameter", "three cells"]),
+        ({"travel": 0.0195}, ["travel", "platen", "less than"]),
+        ({"speed": 0}, ["speed", "greater than 0"]),
+        ({"startGap": -0.001}, ["startGap", "at least 0"]),
+    ],
+)
+def test_the_mesher_tells_bad_parameters(tmp_path, entries, words):
+    case = copy_tutorial(tmp_path / "case", **(SHORT | entries))
+    output = run(case, "python", "-m", "bolus_validation.cutting", ok=False)
+    assert [word for word in words if word not in output] == [], output
+    assert "Traceback" not in output
+
+
+def tetrahedron(path, faces) -> None:
+    """Write some of the faces of a tetrahedron as STL."""
+    corners = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]
+    text = "solid tool\n"
+    for face in faces:
+        text += "facet normal 0 0 0\nouter loop\n"
+        for i in face:
+            text += "vertex {} {} {}\n".format(*corners[i])
+        text += "endloop\nendfacet\n"
+    path.write_text(text + "endsolid tool\n")
+
+
+def test_an_open_stl_is_told_and_a_closed_one_passes(tmp_path):
+    faces = [(0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2)]
+    tetrahedron(tmp_path / "closed.stl", faces)
+    assert cutting.check_surface(tmp_path / "closed.stl").shape == (4, 3, 3)
+    tetrahedron(tmp_path / "open.stl", faces[:3])
+    with pytest.raises(SystemExit, match="open.stl: the surface is open: 3 of"):
+        cutting.check_surface(tmp_path / "open.stl")
