@@ -235,6 +235,7 @@ def box(
         end=end,
         functions=FUNCTIONS + forces,
         application="bolusFoam",
+        libs='("libbolusContact.so")',  # U, for decomposePar
         deltaT=step,
         maxDeltaT=step,
         minDeltaT=step / 1000,

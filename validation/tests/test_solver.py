@@ -26,7 +26,7 @@ from bolus_validation.specimens import (
     run_case,
     solve,
 )
-from bolus_validation.synthetic import run
+from bolus_validation.synthetic import run, write_file
 
 RATES = [0.01, 0.1, 1.0]
 
@@ -495,6 +495,56 @@ def test_plane_and_3d_meshes_agree(plane_strain):
     assert solid[1:] == pytest.approx(plane[1:], rel=1e-5)
 
 
+def test_multigrid_gives_the_answer_of_the_direct_solver(folder):
+    # A block pressed by a wall with friction, in 3D, serial and on two ranks
+    press = [(0, (0, 0, 0)), (0.05, (0, 0, -0.5e-3))]
+    forces = {}
+    for name, entry, command in (
+        ("direct", "direct", ("bolusFoam",)),
+        ("multigrid", "multigrid", ("bolusFoam",)),
+        (
+            "ranks",
+            "multigrid",
+            ("mpirun", "--oversubscribe", "-np", "2", "bolusFoam", "-parallel"),
+        ),
+    ):
+        case = folder / f"linear-{name}"
+        box(
+            case,
+            (0.015, 0.015, 0.010),
+            (9, 9, 6),
+            {
+                "x0": "symmetryPlane",
+                "y0": "symmetryPlane",
+                "z0": "symmetryPlane",
+                "x1": "open",
+                "y1": "open",
+                "z1": (rub(0.3), press),
+            },
+            end=0.05,
+            step=0.01,
+            block=(0.010, 0.010, 0.010),
+            measured=("z1",),
+        )
+        replace(
+            case / "system" / "fvSolution",
+            r"\nbolus \{\}",
+            f"\nbolus {{ linearSolver {entry}; }}",
+        )
+        if name == "ranks":
+            write_file(
+                case / "system" / "decomposeParDict",
+                "numberOfSubdomains 2; method simple;\n"
+                "simpleCoeffs { n (2 1 1); delta 0.001; }\n",
+            )
+            run(case, "decomposePar")
+        run(case, *command)
+        forces[name] = read_table(case, "forceZ1", "contactForce")["total"]
+    assert forces["direct"].max() > 0.1
+    assert forces["multigrid"] == pytest.approx(forces["direct"], rel=1e-5)
+    assert forces["ranks"] == pytest.approx(forces["direct"], rel=1e-5)
+
+
 def test_plane_strain_plateau_is_2_over_root_3_of_the_flow_stress(
     plane_strain,
 ):
@@ -658,6 +708,12 @@ BAD = {
         r"side\s*\{[^}]*\}",
         "side { type fixedValue; value uniform (0 0 0); }",
         ["side", "fixedValue", "contactWall", "zeroGradient"],
+    ),
+    "linear solver": (
+        "system/fvSolution",
+        r"bolus \{",
+        "bolus { linearSolver magic;",
+        ["linearSolver", "magic", "direct", "multigrid"],
     ),
     "unknown friction": (
         "0/U",

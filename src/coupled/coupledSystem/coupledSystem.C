@@ -271,6 +271,7 @@ Foam::coupledSystem::coupledSystem(
     );
     monitor_ = dict.lookupOrDefault("monitor", false);
     read.has("monitor");
+    read.has("linearSolver");
     read.has("petscOptions");
     read.rejectOthers();
 

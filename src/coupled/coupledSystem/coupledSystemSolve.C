@@ -8,15 +8,34 @@
 
 void Foam::coupledSystem::setPetsc(const dictionary& dict)
 {
-    string options(
-        "-bolus_snes_type newtonls -bolus_snes_linesearch_type bt"
-        " -bolus_velocity_ksp_type preonly -bolus_velocity_pc_type lu"
-        " -bolus_velocity_pc_factor_mat_solver_type mumps"
-        " -bolus_velocity_mat_mumps_icntl_14 80"
+    string options("-bolus_snes_type newtonls -bolus_snes_linesearch_type bt ");
+    const word solver(dict.lookupOrDefault<word>("linearSolver", "direct"));
+    if (solver == "direct")
+    {
         // Quasi-dense approximate minimum degree: the fastest of MUMPS's
         // orderings for some ten thousand unknowns
-        " -bolus_velocity_mat_mumps_icntl_7 6 "
-    );
+        options += "-bolus_velocity_ksp_type preonly -bolus_velocity_pc_type lu"
+                   " -bolus_velocity_pc_factor_mat_solver_type mumps"
+                   " -bolus_velocity_mat_mumps_icntl_14 80"
+                   " -bolus_velocity_mat_mumps_icntl_7 6 ";
+    }
+    else if (solver == "multigrid")
+    {
+        options +=
+            "-bolus_velocity_ksp_type gmres"
+            " -bolus_velocity_ksp_gmres_restart 100"
+            " -bolus_velocity_ksp_rtol 1e-4 -bolus_velocity_ksp_max_it 500"
+            " -bolus_velocity_pc_type gamg"
+            " -bolus_velocity_mg_levels_ksp_type richardson"
+            " -bolus_velocity_mg_levels_pc_type sor ";
+    }
+    else
+    {
+        FatalIOErrorInFunction(dict)
+            << "entry linearSolver: " << solver
+            << "; valid are direct (small and plane meshes) and multigrid"
+            << " (large three-dimensional ones)" << exit(FatalIOError);
+    }
     options += dict.lookupOrDefault<string>("petscOptions", "");
     petscCheck(
         PetscOptionsInsertString(nullptr, options.c_str()), "petscOptions"
