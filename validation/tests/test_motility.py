@@ -681,7 +681,7 @@ def test_resolution_entry_sets_the_cell_size(tmp_path):
         x = np.unique(np.round(points[:, 0], 9))
         assert x[1] - x[0] == pytest.approx(resolution, rel=0.05)
         # Half a round of rounding to whole cells in the pylorus
-        assert x[-1] - x[-2] == pytest.approx(resolution / 2.5, rel=0.1)
+        assert x[-1] - x[-2] == pytest.approx(resolution / 1.25, rel=0.1)
         # The throat, x = 0.252 m, is a plane of the mesh
         assert np.abs(x - 0.252).min() < 1e-8
         # Sizes change by less than 15 % from cell to cell
