@@ -79,6 +79,50 @@ void Foam::condensedTangent::preallocate()
 }
 
 
+void Foam::condensedTangent::setRigidMotions()
+{
+    if (space_.nd() != 3) return;
+
+    const trapsOff noTraps;
+    const pointField& points = space_.mesh().points();
+    const point centre = gAverage(points);
+    const vector axes[3] = {vector(1, 0, 0), vector(0, 1, 0), vector(0, 0, 1)};
+
+    petscVec modes[6];
+    Vec vectors[6];
+    for (label m = 0; m < 6; ++m)
+    {
+        VecDuplicate(solution_, modes[m].set());
+        vectors[m] = modes[m];
+
+        PetscScalar* v;
+        VecGetArray(vectors[m], &v);
+        label i = 0;
+        for (const label node : space_.ownedNodes())
+        {
+            const vector x = points[space_.nodePoint()[node]] - centre;
+            const vector u = m < 3 ? axes[m] : (axes[m - 3] ^ x);
+            for (label k = 0; k < 3; ++k) v[i++] = u & space_.basis()[node][k];
+        }
+        VecRestoreArray(vectors[m], &v);
+
+        // Orthonormal, as PETSc wants them
+        for (label n = 0; n < m; ++n)
+        {
+            PetscScalar dot;
+            VecDot(vectors[m], vectors[n], &dot);
+            VecAXPY(vectors[m], -dot, vectors[n]);
+        }
+        VecNormalize(vectors[m], nullptr);
+    }
+
+    MatNullSpace rigid;
+    MatNullSpaceCreate(PETSC_COMM_WORLD, PETSC_FALSE, 6, vectors, &rigid);
+    MatSetNearNullSpace(A_, rigid);
+    MatNullSpaceDestroy(&rigid);
+}
+
+
 void Foam::condensedTangent::addB(const scalarField& perCell, Vec v) const
 {
     const label nd = space_.nd();
@@ -231,6 +275,7 @@ Foam::condensedTangent::condensedTangent(
 {
     preallocate();
     MatCreateVecs(A_, solution_.set(), right_.set());
+    setRigidMotions();
 
     const label n = space_.nRowsOwned() + space_.mesh().nCells();
     petscCheck(

@@ -26,8 +26,9 @@ void Foam::coupledSystem::setPetsc(const dictionary& dict)
             " -bolus_velocity_ksp_gmres_restart 100"
             " -bolus_velocity_ksp_rtol 1e-4 -bolus_velocity_ksp_max_it 500"
             " -bolus_velocity_pc_type gamg"
-            " -bolus_velocity_mg_levels_ksp_type richardson"
-            " -bolus_velocity_mg_levels_pc_type sor ";
+            " -bolus_velocity_mg_levels_ksp_type chebyshev"
+            " -bolus_velocity_mg_levels_ksp_max_it 3"
+            " -bolus_velocity_mg_levels_pc_type jacobi ";
     }
     else
     {
