@@ -8,11 +8,8 @@ not changed; a run that was stopped goes on. SI units.
 """
 
 import csv
-import fcntl
-import hashlib
 import os
 import re
-import subprocess
 from pathlib import Path
 
 import matplotlib
@@ -36,7 +33,7 @@ from bolus_validation.results import (  # noqa: E402
 from bolus_validation.studies import (  # noqa: E402
     ROOT,
     Findings,
-    solver_hash,
+    kept_run,
     study,
 )
 
@@ -104,48 +101,10 @@ class Run:
 def tutorial_run(name: str, **settings) -> Run:
     """Run a tutorial with these -set entries, or take the run that is there.
 
-    A run that gave up a step is kept as it is, with its reason in the file
-    "stopped". Two processes that ask for the same run do not start it twice.
+    See kept_run. A run that gave up a step is shown as far as it came.
     """
-    options = [
-        f"{entry}={x}"
-        for entry, x in sorted(settings.items())
-        if DEFAULTS.get(entry) != x
-    ]
-    key = hashlib.sha256((solver_hash() + name + str(options)).encode())
-    folder = ROOT / "run" / "validate" / "cutting" / "runs"
-    folder.mkdir(parents=True, exist_ok=True)
-    case = folder / f"{name}-{key.hexdigest()[:16]}"
-    done = case / "finished"
-    with open(f"{case}.lock", "w") as lock:
-        fcntl.flock(lock, fcntl.LOCK_EX)
-        if not done.exists() and not (case / "stopped").exists():
-            again = ["-continue"] if (case / "log.bolusFoam").exists() else []
-            words = [] if again else [w for o in options for w in ("-set", o)]
-            result = subprocess.run(
-                [
-                    ROOT / "scripts" / "runCase",
-                    case if again else f"cutting/{name}",
-                    "-out",
-                    case,
-                    *again,
-                    *words,
-                ],
-                capture_output=True,
-                text=True,
-                cwd=ROOT,
-            )
-            log = case / "log.bolusFoam"
-            text = log.read_text() if log.exists() else ""
-            if result.returncode == 0:
-                done.touch()
-            elif "no convergence at" in text:
-                found = re.findall(r"no convergence at[^\n]*", text)
-                (case / "stopped").write_text(found[-1])
-            else:
-                # Not the solver's verdict: killed, no mesh, bad input
-                raise RuntimeError(result.stdout[-2000:] + result.stderr)
-    return Run(case)
+    chosen = {e: x for e, x in settings.items() if DEFAULTS.get(e) != x}
+    return Run(kept_run(f"cutting/{name}", "cutting", **chosen))
 
 
 def book(found: Findings, label: str, run: Run) -> None:

@@ -18,6 +18,7 @@ from bolus_validation.synthetic import (
     write_control,
     write_field,
     write_file,
+    write_motion_fields,
 )
 
 ROOT = Path(__file__).parents[2]
@@ -187,29 +188,26 @@ def box(
     if plane:
         what |= {"z0": "empty", "z1": "empty"}
 
-    kinds, velocity, displacement = {}, "", ""
+    kinds, velocity, displacement = {}, {}, {}
     for name, given in what.items():
         condition, table = (given, None) if isinstance(given, str) else given
         if condition in ("symmetryPlane", "empty"):
             kinds[name] = condition
-            velocity += f"{name} {{ type {condition}; }}\n"
-            displacement += f"{name} {{ type {condition}; }}\n"
+            velocity[name] = displacement[name] = f"type {condition};"
             continue
         kinds[name] = "patch" if condition == "open" else "wall"
         if condition == "open":
             condition = "type zeroGradient;"
-        velocity += f"{name} {{ {condition} }}\n"
+        velocity[name] = condition
+        displacement[name] = "type zeroGradient;"
         if table:
             rows = "".join(
                 f"({t:.12g} ({x:.15g} {y:.15g} {z:.15g}))\n"
                 for t, (x, y, z) in table
             )
-            displacement += (
-                f"{name} {{ type uniformFixedValue; uniformValue table\n"
-                f"(\n{rows}); }}\n"
+            displacement[name] = (
+                f"type uniformFixedValue; uniformValue table\n(\n{rows});"
             )
-        else:
-            displacement += f"{name} {{ type zeroGradient; }}\n"
 
     write_file(
         case / "system" / "blockMeshDict",
@@ -262,21 +260,7 @@ def box(
     write_field(case, mesh, 0, "alpha", alpha)
     if damaged:
         write_field(case, mesh, 0, "D", 1.0)
-    for name, cls, dims, rows in (
-        ("U", "volVectorField", "[0 1 -1 0 0 0 0]", velocity),
-        (
-            "pointDisplacement",
-            "pointVectorField",
-            "[0 1 0 0 0 0 0]",
-            displacement,
-        ),
-    ):
-        write_file(
-            case / "0" / name,
-            f"dimensions {dims};\ninternalField uniform (0 0 0);\n"
-            f"boundaryField\n{{\n{rows}}}\n",
-            cls,
-        )
+    write_motion_fields(case, velocity, displacement)
     return mesh
 
 

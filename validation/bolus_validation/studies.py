@@ -11,12 +11,15 @@ A result is kept under run/validate/<page>/<study> and taken again as long as
 nothing that it depends on has changed: solver, study, common properties.
 """
 
+import fcntl
 import hashlib
 import html
 import json
 import math
 import os
+import re
 import shutil
+import subprocess
 import time
 import traceback
 from collections.abc import Callable
@@ -153,30 +156,74 @@ def _hash(files) -> str:
     return digest.hexdigest()
 
 
-# What the results of the studies depend on: the solver and its libraries, the
-# tutorials that studies start from
+# What results depend on: the solver, its libraries, the tutorials and the
+# script that makes meshes for some of them
 SOURCES = (
-    "src/rheology",
-    "src/motility",
-    "src/contact",
-    "src/coupled",
-    "src/functionObjects",
+    "src",
     "applications",
-    "tutorials/common",
-    "tutorials/rheology",
-    "tutorials/gastric",
+    "tutorials",
+    "validation/bolus_validation/cutting.py",
 )
 
 
 def solver_hash() -> str:
     """Hash of the sources of the solver and of the tutorials."""
+    files = []
+    for name in SOURCES:
+        path = ROOT / name
+        files += sorted(path.rglob("*")) if path.is_dir() else [path]
     return _hash(
         path
-        for folder in SOURCES
-        for path in sorted((ROOT / folder).rglob("*"))
+        for path in files
         if path.suffix not in (".md", ".pyc")
         and not any(part.startswith("linux") for part in path.parts)
     )
+
+
+def kept_run(tutorial: str, page: str, **settings) -> Path:
+    """Run a tutorial with these -set entries, or take the run that is there.
+
+    tutorial    as in ./Allrun run, for example gastric/caseA
+    page        the run is kept in run/validate/<page>/runs
+    Returns the case's folder. A run that was stopped from outside goes on from
+    its last written time; one that gave up a step is kept with its reason in
+    the file "stopped". Two processes that ask for the same run do not start it
+    twice. Raises RuntimeError with what was printed if it failed otherwise.
+    """
+    options = [f"{name}={number}" for name, number in sorted(settings.items())]
+    key = hashlib.sha256((solver_hash() + tutorial + str(options)).encode())
+    folder = ROOT / "run" / "validate" / page / "runs"
+    folder.mkdir(parents=True, exist_ok=True)
+    case = folder / f"{Path(tutorial).name}-{key.hexdigest()[:16]}"
+    with open(f"{case}.lock", "w") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        if (case / "finished").exists() or (case / "stopped").exists():
+            return case
+        # Without a solver's log there is nothing to go on from
+        again = (case / "log.bolusFoam").exists()
+        done = subprocess.run(
+            [
+                *(ROOT / "scripts" / "runCase", tutorial, "-out", case),
+                *(["-continue"] if again else []),
+                *(w for o in options if not again for w in ("-set", o)),
+            ],
+            capture_output=True,
+            text=True,
+            cwd=ROOT,
+            check=False,
+        )
+        log = case / "log.bolusFoam"
+        gave_up = re.findall(
+            r"no convergence at[^\n]*", log.read_text() if log.exists() else ""
+        )
+        if done.returncode == 0:
+            (case / "finished").touch()
+        elif gave_up:
+            (case / "stopped").write_text(gave_up[-1])
+        else:
+            # Not the solver's verdict: killed, no mesh, bad input
+            raise RuntimeError(done.stdout[-2000:] + done.stderr)
+    return case
 
 
 def _key(one: Study) -> str:

@@ -212,6 +212,29 @@ def write_field(case: Path, mesh: Mesh, time, name: str, cells, faces=None):
     write_file(case / str(time) / name, text + "}\n", cls)
 
 
+def write_motion_fields(case: Path, velocity: dict, displacement: dict):
+    """Write 0/U and 0/pointDisplacement, zero inside.
+
+    velocity, displacement   {patch: entries of its condition}
+    """
+    for name, cls, dims, conditions in (
+        ("U", "volVectorField", "[0 1 -1 0 0 0 0]", velocity),
+        (
+            "pointDisplacement",
+            "pointVectorField",
+            "[0 1 0 0 0 0 0]",
+            displacement,
+        ),
+    ):
+        rows = "".join(f"{p} {{ {text} }}\n" for p, text in conditions.items())
+        write_file(
+            case / "0" / name,
+            f"dimensions {dims};\ninternalField uniform (0 0 0);\n"
+            f"boundaryField\n{{\n{rows}}}\n",
+            cls,
+        )
+
+
 def sphere_fraction(mesh: Mesh, centre, radius: float) -> np.ndarray:
     """Volume fraction of a sphere in the cells of a box or wedge mesh.
 

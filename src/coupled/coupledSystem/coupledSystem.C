@@ -19,18 +19,13 @@ constexpr Foam::scalar Foam::coupledSystem::U0_;
 constexpr Foam::scalar Foam::coupledSystem::P0_;
 constexpr Foam::scalar Foam::coupledSystem::rate0_;
 
-namespace Foam
-{
+// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-static bool isSymmetry(const polyPatch& pp)
+bool Foam::coupledSystem::isSymmetry(const polyPatch& pp)
 {
     return isA<symmetryPlanePolyPatch>(pp) || isA<symmetryPolyPatch>(pp);
 }
 
-} // End namespace Foam
-
-
-// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
 Foam::List<Foam::nodalSpace::patchKind> Foam::coupledSystem::kinds(
     const volVectorField& U

@@ -3,8 +3,6 @@
 
 #include "coupledSystem.H"
 #include "contactWallFvPatchVectorField.H"
-#include "symmetryPlanePolyPatch.H"
-#include "symmetryPolyPatch.H"
 #include "syncTools.H"
 
 // Where the power of a step goes: see stepPower in coupledSystem.H.
@@ -155,9 +153,7 @@ void Foam::coupledSystem::bookWalls(
         const polyPatch& pp = mesh_.boundaryMesh()[patchi];
         power_.walls += sum(wallPower.boundaryField()[patchi]);
 
-        if (!mesh_.moving()
-            || !(isA<symmetryPlanePolyPatch>(pp) || isA<symmetryPolyPatch>(pp)))
-            continue;
+        if (!mesh_.moving() || !isSymmetry(pp)) continue;
         const scalarField& swept = mesh_.phi().boundaryField()[patchi];
         forAll(swept, i)
         {

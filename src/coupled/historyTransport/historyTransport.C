@@ -91,6 +91,18 @@ Foam::historyTransport::historyTransport(
     maxAlpha_ = read.number(
         "maxAlpha", "fullest cell of a step [-]", {1, false, GREAT, true}, 1.2
     );
+    squeeze_ = read.number(
+        "squeeze",
+        "beyond 1, what full cells take of what fits nowhere [-]",
+        {0, false, 0.1, true},
+        0.005
+    );
+    memoryAbove_ = read.number(
+        "memoryAbove",
+        "alpha of cells between which memory is interpolated [-]",
+        {0, true, 1, false},
+        0.05
+    );
     read.rejectOthers();
 }
 
@@ -156,7 +168,7 @@ Foam::scalar Foam::historyTransport::spill(
     const label nFirst = 5;
     const label nPasses = 100;
     const scalar tolerance = 1e-4;
-    const scalar squeezed = 1.005;
+    const scalar squeezed = 1 + squeeze_;
     const label nInternal = mesh_.nInternalFaces();
     const labelList& own = mesh_.faceOwner();
     const scalarField& V = mesh_.V();
@@ -191,7 +203,7 @@ Foam::scalar Foam::historyTransport::spill(
     for (label pass = 0; pass < nPasses; ++pass)
     {
         const bool first = pass < nFirst;
-        if (gMax(alpha) < (first ? 1 + tolerance : 1 + 1.8 * (squeezed - 1)))
+        if (gMax(alpha) < (first ? 1 + tolerance : 1 + 1.8 * squeeze_))
         {
             break;
         }
@@ -496,13 +508,13 @@ Foam::historyTransport::report Foam::historyTransport::advance(
             F[f] = a * std::exp(pD / K_);
             total[f] += F[f] / result.subSteps;
         }
-        // Memory is interpolated only inside the bolus
+        // Memory is interpolated only between cells with bolus
         forAll(F, f)
         {
             const scalar aN = f < nInternal ? alpha[mesh_.neighbour()[f]]
                 : coupled[f]                ? alphaNei[f - nInternal]
                                             : 0;
-            full[f] = alpha[own[f]] > 0.05 && aN > 0.05;
+            full[f] = min(alpha[own[f]], aN) > memoryAbove_;
         }
 
         const scalarField mOld(m);

@@ -26,6 +26,7 @@ from bolus_validation.synthetic import (
     write_control,
     write_field,
     write_file,
+    write_motion_fields,
 )
 
 GRIP = "type contactWall; friction { type none; } separation no;"
@@ -231,32 +232,30 @@ def build(
     mesh = read_mesh(polymesh)
     assert mesh.cell_volumes.min() > 0, "the mapping turns cells inside out"
 
-    velocity = displacement = ""
+    velocity, displacement = {}, {}
     for name, patch in mesh.patches.items():
         if patch.size == 0 and name not in sides:
             if patch.type != "empty":
                 continue
         if patch.type in ("symmetryPlane", "empty", "wedge"):
-            velocity += f"{name} {{ type {patch.type}; }}\n"
-            displacement += f"{name} {{ type {patch.type}; }}\n"
+            velocity[name] = displacement[name] = f"type {patch.type};"
             continue
         given = sides[name]
-        condition = given.condition
-        if condition == "open":
-            condition = "type zeroGradient;"
-        velocity += f"{name} {{ {condition} }}\n"
+        velocity[name] = (
+            "type zeroGradient;"
+            if given.condition == "open"
+            else given.condition
+        )
         if given.motion is None:
-            displacement += f"{name} {{ type zeroGradient; }}\n"
+            displacement[name] = "type zeroGradient;"
         elif given.motion == "still":
-            displacement += (
-                f"{name} {{ type fixedValue; value uniform (0 0 0); }}\n"
-            )
+            displacement[name] = "type fixedValue; value uniform (0 0 0);"
         else:
             _write_motion(case, mesh, name, given.motion, knots or (0, end))
-            displacement += (
-                f"{name} {{ type timeVaryingMappedFixedValue; "
+            displacement[name] = (
+                "type timeVaryingMappedFixedValue; "
                 "setAverage off; perturb 0; mapMethod nearest; "
-                "value uniform (0 0 0); }\n"
+                "value uniform (0 0 0);"
             )
 
     text = functions
@@ -306,21 +305,7 @@ def build(
                 r"dimensions [^;]*",
                 "dimensions [1 -1 -2 0 0 0 0]",
             )
-    for name, cls, dims, rows in (
-        ("U", "volVectorField", "[0 1 -1 0 0 0 0]", velocity),
-        (
-            "pointDisplacement",
-            "pointVectorField",
-            "[0 1 0 0 0 0 0]",
-            displacement,
-        ),
-    ):
-        write_file(
-            case / "0" / name,
-            f"dimensions {dims};\ninternalField uniform (0 0 0);\n"
-            f"boundaryField\n{{\n{rows}}}\n",
-            cls,
-        )
+    write_motion_fields(case, velocity, displacement)
     return mesh
 
 

@@ -32,6 +32,7 @@ from bolus_validation.synthetic import (  # noqa: E402
 from bolus_validation.synthetic import (
     write_field,
     write_file,
+    write_motion_fields,
 )
 
 # Onset of the common material
@@ -649,23 +650,11 @@ def punched(case: Path, cell: float, step: float, end: float) -> None:
         "symmetryPlane": ("type symmetryPlane;",) * 2,
         "empty": ("type empty;",) * 2,
     }
-    for i, (name, cls, dims) in enumerate(
-        (
-            ("U", "volVectorField", "[0 1 -1 0 0 0 0]"),
-            ("pointDisplacement", "pointVectorField", "[0 1 0 0 0 0 0]"),
-        )
-    ):
-        write_file(
-            case / "0" / name,
-            f"dimensions {dims};\ninternalField uniform (0 0 0);\n"
-            "boundaryField\n{\n"
-            + "".join(
-                f"{patch} {{ {conditions[kind][i]} }}\n"
-                for patch, (kind, _) in patches.items()
-            )
-            + "}\n",
-            cls,
-        )
+    write_motion_fields(
+        case,
+        {patch: conditions[kind][0] for patch, (kind, _) in patches.items()},
+        {patch: conditions[kind][1] for patch, (kind, _) in patches.items()},
+    )
     fill(case, lambda x, y: (x < SPLIT[0]) & (y < SPLIT[1]))
     write_each(case, end / 12)
     monitor_damage(case)

@@ -6,10 +6,7 @@ Each is halved and doubled. The runs are kept in run/validate/physics/runs, so
 that a study that was stopped goes on with the next one.
 """
 
-import fcntl
-import hashlib
 import json
-import subprocess
 from pathlib import Path
 
 import matplotlib
@@ -21,35 +18,38 @@ from bolus_validation.results import read_table  # noqa: E402
 from bolus_validation.studies import (  # noqa: E402
     ROOT,
     Findings,
-    solver_hash,
+    kept_run,
     study,
 )
+from bolus_validation.synthetic import run  # noqa: E402
 
 CASE = "gastric/caseA"
 FLOW = "system/fvSolution:bolus."
 MOVE = "system/fvSolution:transport."
 VOID = "constant/bolusProperties:void."
 
-# Name: (entry, value of the tutorial, unit)
+# Name: (entry, unit)
 INPUTS = {
-    "voidCompliance": (VOID + "zeta", 50, "Pa s"),
-    "voidViscosity": (VOID + "eta", 2, "Pa s"),
-    "damagedViscosity": (VOID + "etaDamaged", 5, "Pa s"),
-    "voidCorner": (VOID + "delta", 20, "Pa"),
-    "voidSeal": (VOID + "seal", 0.02, "-"),
-    "voidClosing": (VOID + "closing", 0.5, "-"),
-    "elasticSlip": ("elasticSlip", 1e-5, "m"),
-    "residualGap": ("residualGap", 2e-5, "m"),
-    "hourglass": (FLOW + "hourglass", 0.05, "-"),
-    "overfillTime": (FLOW + "overfillTime", 0.02, "s"),
-    "partingTension": (FLOW + "partingTension", 0.1, "Pa"),
-    "interfaceJump": (FLOW + "interfaceJump", 0.2, "-"),
-    "leastRoom": (FLOW + "leastRoom", 0.05, "-"),
-    "damageAbove": (FLOW + "damageAbove", 0.1, "-"),
-    "tolerance": (FLOW + "tolerance", 1e-6, "-"),
-    "transportCourant": (MOVE + "maxCourant", 0.3, "-"),
-    "maxCourant": ("maxCourant", 1, "-"),
-    "maxDeltaT": ("maxDeltaT", 0.05, "s"),
+    "voidCompliance": (VOID + "zeta", "Pa s"),
+    "voidViscosity": (VOID + "eta", "Pa s"),
+    "damagedViscosity": (VOID + "etaDamaged", "Pa s"),
+    "voidCorner": (VOID + "delta", "Pa"),
+    "voidSeal": (VOID + "seal", "-"),
+    "voidClosing": (VOID + "closing", "-"),
+    "elasticSlip": ("elasticSlip", "m"),
+    "residualGap": ("residualGap", "m"),
+    "hourglass": (FLOW + "hourglass", "-"),
+    "overfillTime": (FLOW + "overfillTime", "s"),
+    "partingTension": (FLOW + "partingTension", "Pa"),
+    "interfaceJump": (FLOW + "interfaceJump", "-"),
+    "leastRoom": (FLOW + "leastRoom", "-"),
+    "damageAbove": (FLOW + "damageAbove", "-"),
+    "tolerance": (FLOW + "tolerance", "-"),
+    "squeeze": (MOVE + "squeeze", "-"),
+    "memoryAbove": (MOVE + "memoryAbove", "-"),
+    "transportCourant": (MOVE + "maxCourant", "-"),
+    "maxCourant": ("maxCourant", "-"),
+    "maxDeltaT": ("maxDeltaT", "s"),
 }
 
 # Bounds of an entry, where doubling would go beyond
@@ -57,33 +57,26 @@ LARGEST = {"transportCourant": 0.5}
 
 
 def gastric_run(**settings) -> Path:
-    """Run case A with these -set entries, or take the run that is there.
+    """The folder of a run of case A with these -set entries (kept_run).
 
-    Returns its folder. Two processes that ask for the same run do not start
-    it twice.
+    Raises RuntimeError if it gave up a step: its figures are not those of 32 s.
     """
-    options = [f"{name}={number}" for name, number in sorted(settings.items())]
-    key = hashlib.sha256((solver_hash() + str(options)).encode())
-    folder = ROOT / "run" / "validate" / "physics" / "runs"
-    folder.mkdir(parents=True, exist_ok=True)
-    case = folder / f"caseA-{key.hexdigest()[:16]}"
-    with open(f"{case}.lock", "w") as lock:
-        fcntl.flock(lock, fcntl.LOCK_EX)
-        if not (case / "results.json").exists():
-            again = ["-continue"] if case.exists() else []
-            words = [] if again else [w for o in options for w in ("-set", o)]
-            subprocess.run(
-                [
-                    ROOT / "scripts" / "runCase",
-                    case if again else CASE,
-                    *(again or ["-out", case]),
-                    *words,
-                ],
-                check=True,
-                capture_output=True,
-                cwd=ROOT,
-            )
+    case = kept_run(CASE, "physics", **settings)
+    if (case / "stopped").exists():
+        raise RuntimeError(f"{settings}: {(case / 'stopped').read_text()}")
     return case
+
+
+def tutorial_value(entry: str) -> float:
+    """What an entry FILE:PATH or a short name is in the tutorial."""
+    tutorial = ROOT / "tutorials" / CASE
+    if ":" not in entry:
+        rows = map(str.split, (tutorial / "entries").read_text().splitlines())
+        entry = next(f"{r[1]}:{r[2]}" for r in rows if r and r[0] == entry)
+    file, path = entry.split(":")
+    return float(
+        run(tutorial, "foamDictionary", file, "-entry", path, "-value")
+    )
 
 
 def figures(case: Path) -> dict:
@@ -133,16 +126,18 @@ def compare(folder: Path, runs: dict, limit: float | None) -> Findings:
     return found
 
 
-def register(name: str, entry: str, number: float, unit: str) -> None:
+def register(name: str, entry: str, unit: str) -> None:
     """A study that halves and doubles an input of case A."""
 
     @study(
         f"sensitivity_{name}",
         "F",
-        f"{name}: {entry.split('.')[-1]} {number:g} {unit} halved and doubled",
+        f"{name} ({entry.split('.')[-1]}) halved and doubled",
         "the run of the tutorial; 1 % allowed",
     )
-    def run(folder: Path, quick: bool) -> Findings:
+    def run_study(folder: Path, quick: bool) -> Findings:
+        number = tutorial_value(entry)
+        # What cannot be doubled goes to its bound
         twice = min(2 * number, LARGEST.get(name, float("inf")))
         return compare(
             folder,
@@ -155,8 +150,8 @@ def register(name: str, entry: str, number: float, unit: str) -> None:
         )
 
 
-for _name, (_entry, _number, _unit) in INPUTS.items():
-    register(_name, _entry, _number, _unit)
+for _name, (_entry, _unit) in INPUTS.items():
+    register(_name, _entry, _unit)
 
 
 @study(
