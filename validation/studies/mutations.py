@@ -64,6 +64,14 @@ MUTATIONS = (
         "test_physics.py -k shear",
     ),
     Mutation(
+        "crumbs without cohesion",
+        "src/coupled/voidLaw/voidLaw.H",
+        "const scalar pt = pv + cohesion;",
+        "const scalar pt = pv;",
+        COUPLED,
+        "test_void.py",
+    ),
+    Mutation(
         "consistent tangent 10 % off in plastic flow",
         POINT,
         "((r.dqdqTrial - r.theta)",

@@ -393,13 +393,13 @@ BAD_INPUT = {
         ("alpha", "no bolus", "setAlphaField"),
     ),
     "unknown friction": (
-        "0/U",
+        "system/caseParameters",
         r"\nfriction .*",
         "\nfriction sticky;",
         ("sticky", "coulomb"),
     ),
     "negative friction": (
-        "0/U",
+        "system/caseParameters",
         r"\nmu .*",
         "\nmu -0.1;",
         ("mu", "-0.1", ">= 0"),
@@ -411,7 +411,7 @@ BAD_INPUT = {
         ("brittle", "triaxialOnset"),
     ),
     "unknown law": (
-        "constant/bolusProperties",
+        "system/caseParameters",
         r"\nlaw .*",
         "\nlaw nonsense;",
         ("bolusProperties.nonsense", "constant/bolusProperties"),

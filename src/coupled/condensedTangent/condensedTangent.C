@@ -316,6 +316,14 @@ void Foam::condensedTangent::attach(SNES snes)
 }
 
 
+void Foam::condensedTangent::setAccuracy(const scalar tolerance)
+{
+    KSPSetTolerances(
+        solver_, tolerance, PETSC_DEFAULT, PETSC_DEFAULT, PETSC_DEFAULT
+    );
+}
+
+
 void Foam::condensedTangent::clear()
 {
     MatZeroEntries(A_);

@@ -125,6 +125,7 @@ void Foam::coupledSystem::freeze()
     a_.setSize(nCells);
     phi_.setSize(nCells);
     room_.setSize(nCells);
+    cohesion_.setSize(nCells);
     weight_.setSize(nCells);
     overfill_.setSize(nCells);
     damaged_.setSize(nCells);
@@ -188,6 +189,8 @@ void Foam::coupledSystem::freeze()
         phi_[c] = damaged_[c] || atWall
             ? 1
             : void_.opening(alpha[c]) * (alpha[c] < 0.5 ? 1 : sharp);
+        cohesion_[c] = damaged_[c] && !atWall ? void_.cohesion() : 0;
+
         const vector& nw = space_.cellWallNormal()[c];
         if (atWall && (nw & state_.stress[c] & nw) > partingTension_)
         {

@@ -44,7 +44,9 @@ void Foam::coupledSystem::evaluate(const label c, cellResult& r) const
 
     r.pv = p - (N_[c] && r.r.s);
     scalar rate;
-    void_.rate(r.pv, a, room_[c], phi_[c], deltaT_, rate, r.drdpv);
+    void_.rate(
+        r.pv, a, room_[c], phi_[c], deltaT_, cohesion_[c], rate, r.drdpv
+    );
     r.residual = r.growth + rate;
 
     r.P = -(a * p + (1 - a) * r.pv);
@@ -186,41 +188,42 @@ void Foam::coupledSystem::assembleCell(
     internalForce(c, r, R);
     R.append(r.residual);
 
-    // Derivatives of dev, P and the void's pressure in the direction of each
-    // unknown; the last one is the pressure
-    List<symmTensor> dDev;
-    scalarList dP;
-    scalarList dPv;
-    List<symmTensor> dS;
+    // Derivatives in the direction of each unknown; the last is the pressure
     if (J)
     {
         J->setSize((n + 1) * (n + 1));
-        dDev.setSize(n + 1);
-        dP.setSize(n + 1);
-        dPv.setSize(n + 1);
-        dS.setSize(n + 1);
+        symG_.setSize(n);
+        dDev_.setSize(n + 1);
+        dP_.setSize(n + 1);
+        dPv_.setSize(n + 1);
+        dS_.setSize(n + 1);
+        const tensor N(N_[c]);
+        for (label i = 0; i < n; ++i) symG_[i] = symm(G[i]);
         for (label j = 0; j <= n; ++j)
         {
             const bool isP = j == n;
             const scalar dGrowth = isP ? a / (K * deltaT_) : h[j] / V;
-            const tensor dGrad = isP ? tensor(Zero) : G[j];
 
-            symmTensor ds = Zero;
+            dS_[j] = Zero;
             if (a > SMALL)
             {
-                ds = law_.tangent(dGrad - dGrowth * tensor(N_[c]), r.r);
+                dS_[j] =
+                    law_.tangent(isP ? -dGrowth * N : G[j] - dGrowth * N, r.r);
             }
-            dS[j] = ds;
-            dPv[j] = (isP ? 1 : 0) - (N_[c] && ds);
-            dP[j] = -((isP ? a : 0) + (1 - a) * dPv[j]);
-            dDev[j] = a * ds + (2 * eta_[c]) * dev(symm(dGrad));
+            dPv_[j] = (isP ? 1 : 0) - (N_[c] && dS_[j]);
+            dP_[j] = -((isP ? a : 0) + (1 - a) * dPv_[j]);
+            dDev_[j] = (a * V) * dS_[j];
+            if (!isP) dDev_[j] += (2 * V * eta_[c]) * dev(symG_[j]);
 
-            for (label i = 0; i < n; ++i)
+            (*J)[n * (n + 1) + j] = dGrowth + r.drdpv * dPv_[j];
+        }
+        for (label i = 0; i < n; ++i)
+        {
+            scalar* row = &(*J)[i * (n + 1)];
+            for (label j = 0; j <= n; ++j)
             {
-                (*J)[i * (n + 1) + j] =
-                    V * (dDev[j] && symm(G[i])) + dP[j] * h[i];
+                row[j] = (dDev_[j] && symG_[i]) + dP_[j] * h[i];
             }
-            (*J)[n * (n + 1) + j] = dGrowth + r.drdpv * dPv[j];
         }
     }
 
@@ -297,7 +300,7 @@ void Foam::coupledSystem::assembleCell(
                 for (label j = 0; j <= n; ++j)
                 {
                     row[j] += w * dpn * along
-                        * ((j == n ? 1 : 0) - (k.n & dS[j] & k.n));
+                        * ((j == n ? 1 : 0) - (k.n & dS_[j] & k.n));
                 }
             }
         }

@@ -29,6 +29,12 @@ Foam::voidLaw::voidLaw(const dictionary& dict)
     delta_ = read.number(
         "delta", "rounding of the contact's corner [Pa]", positive, 2
     );
+    cohesion_ = read.number(
+        "cohesion",
+        "tension that damaged bolus holds [Pa]",
+        entryReader::nonNegative,
+        0
+    );
     read.rejectOthers();
 }
 

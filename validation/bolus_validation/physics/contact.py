@@ -755,7 +755,7 @@ def press_on_pylorus(case: Path, throat: float, gap: float, cell: float):
     ):
         replace(control, rf"\b{entry} [^;]*;", f"{entry} {value};")
     replace(
-        case / "constant" / "bolusProperties",
+        case / "system" / "caseParameters",
         r"\nlaw [^;]*;",
         "\nlaw viscoplastic;",
     )

@@ -13,7 +13,7 @@ import numpy as np
 
 from bolus_validation import plots, rheology
 from bolus_validation.physics.cases import picture
-from bolus_validation.physics.sensitivity import gastric_run
+from bolus_validation.physics.sensitivity import TUTORIAL, gastric_run
 from bolus_validation.results import ARTIFICIAL, energy_shares, read_table
 from bolus_validation.specimens import compression
 from bolus_validation.studies import Findings, study
@@ -126,7 +126,7 @@ def tutorial(folder: Path, quick: bool) -> Findings:
 )
 def gastric(folder: Path, quick: bool) -> Findings:
     found = Findings()
-    case = gastric_run(**({"resolution": 1e-3} if quick else {}))
+    case = gastric_run(**({} if quick else TUTORIAL))
     table = read_table(case, "energyBalance")
     residual(found, table, "case A", THROUGH_FRACTURE)
     for name, share in energy_shares(table).items():

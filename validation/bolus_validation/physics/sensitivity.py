@@ -1,15 +1,19 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 the bolusFoam developers
-"""Group F: what the artificial inputs do to the answer of case A.
+"""Group F: what the artificial inputs do to the answer of case A, coarse.
 
-Each is halved and doubled. The runs are kept in run/validate/physics/runs, so
-that a study that was stopped goes on with the next one.
+Each is halved and doubled, on cells of 1 mm. What a run does after the bolus
+broke depends on which cell broke first: sensitivity_chance shows how much the
+figures move when nothing but the length of the first step changes. The runs
+are kept in run/validate/physics/runs, so that a study that was stopped goes on
+with the next one.
 """
 
 import json
 from pathlib import Path
 
 import matplotlib
+import numpy as np
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
@@ -24,6 +28,8 @@ from bolus_validation.studies import (  # noqa: E402
 from bolus_validation.synthetic import run  # noqa: E402
 
 CASE = "gastric/caseA"
+COARSE = {"resolution": 1e-3, "pylorusRefinement": 2.5}
+TUTORIAL = {"resolution": 0.5e-3, "pylorusRefinement": 1.25}
 FLOW = "system/fvSolution:bolus."
 MOVE = "system/fvSolution:transport."
 VOID = "constant/bolusProperties:void."
@@ -34,6 +40,7 @@ INPUTS = {
     "voidViscosity": (VOID + "eta", "Pa s"),
     "damagedViscosity": (VOID + "etaDamaged", "Pa s"),
     "voidCorner": (VOID + "delta", "Pa"),
+    "voidCohesion": (VOID + "cohesion", "Pa"),
     "voidSeal": (VOID + "seal", "-"),
     "voidClosing": (VOID + "closing", "-"),
     "elasticSlip": ("elasticSlip", "m"),
@@ -61,7 +68,7 @@ def gastric_run(**settings) -> Path:
 
     Raises RuntimeError if it gave up a step: its figures are not those of 32 s.
     """
-    case = kept_run(CASE, "physics", **settings)
+    case = kept_run(CASE, "physics", **(COARSE | settings))
     if (case / "stopped").exists():
         raise RuntimeError(f"{settings}: {(case / 'stopped').read_text()}")
     return case
@@ -80,16 +87,26 @@ def tutorial_value(entry: str) -> float:
 
 
 def figures(case: Path) -> dict:
-    """Peak force [N], work [J], retained mass [-] of a run."""
+    """Peak force [N], work [J], retained mass [-] of a run; 18 s is when the
+    first wave has gone."""
     found = json.loads((case / "results.json").read_text())["results"]
+    work = read_table(case, "externalWork")
     return {
         "peak force": found["contactForce"]["total"]["peak"]["value"],
+        "work until 8 s": np.interp(8, work.time, work["work"]),
+        "work until 18 s": np.interp(18, work.time, work["work"]),
         "work": found["externalWork"]["work"]["final"]["value"],
         "retained mass": found["retainedMass"]["retained"]["final"]["value"],
     }
 
 
-UNITS = {"peak force": "N", "work": "J", "retained mass": "-"}
+UNITS = {
+    "peak force": "N",
+    "work until 8 s": "J",
+    "work until 18 s": "J",
+    "work": "J",
+    "retained mass": "-",
+}
 CURVES = (
     ("contactForce", "total", "force [N]"),
     ("externalWork", "work", "work [J]"),
@@ -172,18 +189,35 @@ def inertia(folder: Path, quick: bool) -> Findings:
 
 
 @study(
+    "sensitivity_chance",
+    "F",
+    "the first step a little shorter and longer: what chance does",
+    "the run of the tutorial; for information",
+)
+def chance(folder: Path, quick: bool) -> Findings:
+    return compare(
+        folder,
+        {
+            f"first step {step:g} s": gastric_run(deltaT=step)
+            for step in (0.01, 0.0095, 0.0099, 0.0101, 0.0105)
+        },
+        None,
+    )
+
+
+@study(
     "sensitivity_resolution",
     "F",
     "cell size of case A",
-    "the run of the tutorial; for information",
+    "the run at 1 mm; for information",
 )
 def resolution(folder: Path, quick: bool) -> Findings:
     return compare(
         folder,
         {
-            "0.5 mm": gastric_run(),
-            "1 mm": gastric_run(resolution=1e-3),
-            "0.7 mm": gastric_run(resolution=0.7e-3),
+            "1 mm": gastric_run(),
+            "0.7 mm": gastric_run(resolution=0.7e-3, pylorusRefinement=1.75),
+            "0.5 mm": gastric_run(**TUTORIAL),
         },
         None,
     )
