@@ -421,6 +421,37 @@ def energy(path, target: Path) -> bool:
     return True
 
 
+def pieces(path, target: Path) -> bool:
+    """Pieces of sound bolus, and the jets, against time."""
+    fragments = optional_table(path, "fragments")
+    jets = optional_table(path, "jets")
+    if not fragments or not jets:
+        return False
+
+    figure, (left, right) = plt.subplots(
+        1, 2, figsize=(11, 3.6), layout="constrained"
+    )
+    left.step(fragments.time, fragments["pieces"], "k", label="pieces")
+    left.set(xlabel="t [s]", ylabel="pieces of sound bolus [-]")
+    masses = left.twinx()
+    for i in range(1, 5):
+        masses.plot(
+            fragments.time, 1e3 * fragments[f"mass{i}"], lw=1, label=f"no. {i}"
+        )
+    masses.set(ylabel="mass of the largest [g]")
+    masses.legend(fontsize=8)
+    for column, label in (
+        ("back99", "back"),
+        ("out99", "out through the pylorus"),
+    ):
+        right.plot(jets.time, 1e3 * jets[column], lw=0.8, label=label)
+    right.set(xlabel="t [s]", ylabel="speed of the fastest hundredth [mm/s]")
+    right.legend(fontsize=8)
+    figure.savefig(target, dpi=120)
+    plt.close(figure)
+    return True
+
+
 def draw(paths, times=PAPER_TIMES, folder: Path | None = None) -> list[Path]:
     """Draw all pictures; returns those that there was something to draw for."""
     first = Case(paths[0])

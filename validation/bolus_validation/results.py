@@ -267,7 +267,12 @@ _COLUMNS = {
         "surfaceToVolume",
     ),
     "damagedVolume": ("bolus", "damaged", "fraction"),
-    "energyBalance": None,  # all that it has
+    # All that they have
+    "energyBalance": None,
+    "fragments": None,
+    "jets": None,
+    "bolusStatistics": None,
+    "wallEnergy": None,
 }
 
 # What the energy balance would not have if the void carried nothing and the

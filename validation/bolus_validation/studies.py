@@ -94,12 +94,14 @@ class Order:
 
 @dataclass
 class Findings:
-    """What a study found; picture is the name of a file in its folder."""
+    """What a study found; picture is the name of a file in its folder, more
+    those of others to show below it."""
 
     rows: list = field(default_factory=list)
     orders: list = field(default_factory=list)
     remarks: list = field(default_factory=list)
     picture: str | None = None
+    more: list = field(default_factory=list)
 
     def row(self, *args, **named) -> Row:
         """Add a Row."""
@@ -115,6 +117,21 @@ class Findings:
     def met(self) -> bool:
         """Whether everything that has a limit is within it."""
         return all(x.met is not False for x in (*self.rows, *self.orders))
+
+
+def energy_residual(found: Findings, table, what: str, limit: float) -> None:
+    """A row for the largest residual of a run, of its largest work; table:
+    that of energyBalance."""
+    work = np.abs(table["work"] + table["closure"]).max()
+    found.row(
+        f"residual, {what}",
+        "-",
+        np.abs(table["residual"]).max() / work,
+        0,
+        limit,
+        1,
+        "largest of the run",
+    )
 
 
 @dataclass(frozen=True)
@@ -258,6 +275,7 @@ def _run_one(name: str, folder: Path, key: str) -> dict:
             ],
             "remarks": found.remarks,
             "picture": found.picture,
+            "more": found.more,
             "met": found.met,
         }
     except Exception:
@@ -348,7 +366,10 @@ def _section(base: Path, result: dict) -> str:
         text.append(f"<pre>{html.escape(result['error'])}</pre>")
         return "\n".join(text)
     if result["picture"]:
-        text.append(f'<img src="{one.name}/{result["picture"]}">')
+        text += [
+            f'<img src="{one.name}/{name}">'
+            for name in (result["picture"], *result.get("more", []))
+        ]
     if result["rows"]:
         text.append(
             "<table><tr><th>quantity<th>unit<th>ours<th>reference<th>error"

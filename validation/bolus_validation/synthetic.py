@@ -7,6 +7,7 @@ The meshes are blockMesh's; the fields are written here. A stock solver
 of the bolus is not needed.
 """
 
+import os
 import subprocess
 from pathlib import Path
 
@@ -38,7 +39,13 @@ _DIMENSIONS = {
 def run(case: Path, *command: str, ok: bool = True) -> str:
     """Run a command in a case; returns what it printed."""
     done = subprocess.run(
-        command, cwd=case, capture_output=True, text=True, check=False
+        command,
+        cwd=case,
+        # OpenFOAM warns where it is not that of the folder
+        env=os.environ | {"PWD": str(Path(case).resolve())},
+        capture_output=True,
+        text=True,
+        check=False,
     )
     output = done.stdout + done.stderr
     if ok:

@@ -3,9 +3,8 @@
 
 #include "freeSurface.H"
 #include "addToRunTimeSelectionTable.H"
-#include "pointFields.H"
+#include "cutSurface.H"
 #include "volFields.H"
-#include "volPointInterpolation.H"
 
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
 
@@ -16,58 +15,6 @@ namespace functionObjects
 defineTypeNameAndDebug(freeSurface, 0);
 addToRunTimeSelectionTable(functionObject, freeSurface, dictionary);
 }
-}
-
-
-// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
-
-Foam::vector Foam::functionObjects::freeSurface::cutArea(
-    const face& f,
-    const scalarField& pointAlpha
-) const
-{
-    const pointField& points = mesh_.points();
-    const point& origin = points[f[0]];
-
-    // Twice the area vector by the polygon's corners, as they come
-    vector twice(Zero);
-    vector first(Zero);
-    vector last(Zero);
-    bool any = false;
-
-    auto corner = [&](const vector& x)
-    {
-        if (any)
-        {
-            twice += last ^ x;
-        }
-        else
-        {
-            first = x;
-            any = true;
-        }
-        last = x;
-    };
-
-    forAll(f, i)
-    {
-        const label a = f[i];
-        const label b = f.nextLabel(i);
-        const scalar da = pointAlpha[a] - isoValue_;
-        const scalar db = pointAlpha[b] - isoValue_;
-
-        if (da > 0)
-        {
-            corner(points[a] - origin);
-        }
-        if ((da > 0) != (db > 0))
-        {
-            const scalar s = da / (da - db);
-            corner((1 - s) * points[a] + s * points[b] - origin);
-        }
-    }
-
-    return 0.5 * (twice + (last ^ first));
 }
 
 
@@ -94,34 +41,9 @@ Foam::stringList Foam::functionObjects::freeSurface::heads() const
 Foam::scalarList Foam::functionObjects::freeSurface::values()
 {
     const volScalarField& alpha = field("alpha");
-    const scalarField pointAlpha(
-        volPointInterpolation::New(mesh_).interpolate(alpha)
-    );
-
-    const faceList& faces = mesh_.faces();
-    const labelList& owner = mesh_.faceOwner();
-    const labelList& neighbour = mesh_.faceNeighbour();
-
-    vectorField interface(mesh_.nCells(), Zero);
-    scalar contactArea = 0;
-
-    forAll(faces, facei)
-    {
-        const vector A(cutArea(faces[facei], pointAlpha));
-
-        interface[owner[facei]] += A;
-        if (mesh_.isInternalFace(facei))
-        {
-            interface[neighbour[facei]] -= A;
-        }
-        else if (patches_.found(mesh_.boundaryMesh().whichPatch(facei)))
-        {
-            contactArea += mag(A);
-        }
-    }
-
-    const scalar freeArea = factor() * gSum(mag(interface)());
-    contactArea = factor() * returnReduce(contactArea, sumOp<scalar>());
+    const cutSurface surface(alpha, isoValue_, patches_);
+    const scalar freeArea = factor() * gSum(surface.free());
+    const scalar contactArea = factor() * gSum(surface.contact());
 
     const scalar volume = factor()
         * gSum(scalarField(alpha.primitiveField() * mesh_.V().field()));

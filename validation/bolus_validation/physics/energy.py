@@ -16,7 +16,7 @@ from bolus_validation.physics.cases import picture
 from bolus_validation.physics.sensitivity import TUTORIAL, gastric_run
 from bolus_validation.results import ARTIFICIAL, energy_shares, read_table
 from bolus_validation.specimens import compression
-from bolus_validation.studies import Findings, study
+from bolus_validation.studies import Findings, energy_residual, study
 
 RATE = 0.1  # of the tutorial [1/s]
 
@@ -27,20 +27,6 @@ LIMITED = ("void", "stabilisation")
 # Cells along the axis and the radius of the tutorial's mesh
 MESHES = ((5, 18), (10, 36), (20, 72))
 STEPS = (0.02, 0.01, 0.005)  # of strain
-
-
-def residual(found: Findings, table, what: str, limit: float) -> None:
-    """A row for the largest residual of a run, of its largest work."""
-    work = np.abs(table["work"] + table["closure"]).max()
-    found.row(
-        f"residual, {what}",
-        "-",
-        np.abs(table["residual"]).max() / work,
-        0,
-        limit,
-        1,
-        "largest of the run",
-    )
 
 
 @study(
@@ -68,7 +54,7 @@ def tutorial(folder: Path, quick: bool) -> Findings:
 
     # Against the exact solution
     case, table = run("exact", meshes[-1], steps[-1], "none", 0.5)
-    residual(found, table, "frictionless", RESIDUAL)
+    energy_residual(found, table, "frictionless", RESIDUAL)
     law = rheology.Tabulated(rheology.RATES, rheology.STRESSES)
     strain = np.linspace(0, 0.5, 5001)
     stress = rheology.uniaxial_tabulated(law, RATE, strain / RATE)
@@ -84,7 +70,7 @@ def tutorial(folder: Path, quick: bool) -> Findings:
     shares = []
     for mesh in meshes:
         _, table = run(f"mesh{mesh[0]}", mesh, 0.01, "coulomb", unload=0.1)
-        residual(found, table, f"friction, {mesh[0]} cells", RESIDUAL)
+        energy_residual(found, table, f"friction, {mesh[0]} cells", RESIDUAL)
         shares.append({n: s[-1] for n, s in energy_shares(table).items()})
     sizes = [0.020 / mesh[0] for mesh in meshes]
     for name in (*LIMITED, "transport"):
@@ -128,7 +114,7 @@ def gastric(folder: Path, quick: bool) -> Findings:
     found = Findings()
     case = gastric_run(**({} if quick else TUTORIAL))
     table = read_table(case, "energyBalance")
-    residual(found, table, "case A", THROUGH_FRACTURE)
+    energy_residual(found, table, "case A", THROUGH_FRACTURE)
     for name, share in energy_shares(table).items():
         limit = SHARE if name in LIMITED else None
         columns = " + ".join(ARTIFICIAL[name])

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 the bolusFoam developers
+
+#include "bolusStatistics.H"
+#include "addToRunTimeSelectionTable.H"
+#include "PstreamReduceOps.H"
+#include "Tuple2.H"
+#include "volFields.H"
+#include "weightedSample.H"
+
+// * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
+
+namespace Foam
+{
+namespace functionObjects
+{
+defineTypeNameAndDebug(bolusStatistics, 0);
+addToRunTimeSelectionTable(functionObject, bolusStatistics, dictionary);
+}
+}
+
+
+// * * * * * * * * * * * * Protected Member Functions  * * * * * * * * * * * //
+
+Foam::string Foam::functionObjects::bolusStatistics::title() const
+{
+    return "Triaxiality, plastic strain and pressure of the bolus";
+}
+
+
+Foam::stringList Foam::functionObjects::bolusStatistics::heads() const
+{
+    return stringList(
+        {"eta05 [-]",
+            "eta50 [-]",
+            "eta95 [-]",
+            "eps50 [-]",
+            "eps95 [-]",
+            "eps100 [-]",
+            "pMin [Pa]",
+            "pMax [Pa]",
+            "xMin [m]",
+            "xMax [m]"}
+    );
+}
+
+
+Foam::scalarList Foam::functionObjects::bolusStatistics::values()
+{
+    const scalarField& alpha = field("alpha");
+    const scalarField& D = field("D");
+    const scalarField& eta = field("triaxiality");
+    const scalarField& stress = field("sigmaEq");
+    const scalarField& strain = field("epsilonPEq");
+    const scalarField& p = field("p");
+    const scalarField x(mesh_.C().primitiveField() & axis_);
+
+    DynamicList<scalar> etas, etaVolume, strains, volumes;
+    Tuple2<scalar, scalar> low(GREAT, 0), high(-GREAT, 0);
+    forAll(alpha, c)
+    {
+        if (alpha[c] <= 0.5) continue;
+        const scalar volume = alpha[c] * mesh_.V()[c];
+        strains.append(strain[c]);
+        volumes.append(volume);
+        if (D[c] <= 0.5 && stress[c] > loaded_)
+        {
+            etas.append(eta[c]);
+            etaVolume.append(volume);
+        }
+        if (p[c] < low.first()) low = Tuple2<scalar, scalar>(p[c], x[c]);
+        if (p[c] > high.first()) high = Tuple2<scalar, scalar>(p[c], x[c]);
+    }
+    using pair = Tuple2<scalar, scalar>;
+    combineReduce(
+        low,
+        [](pair& a, const pair& b)
+        {
+            if (b.first() < a.first()) a = b;
+        }
+    );
+    combineReduce(
+        high,
+        [](pair& a, const pair& b)
+        {
+            if (b.first() > a.first()) a = b;
+        }
+    );
+    if (low.first() > 0.5 * GREAT) low = high = pair(0, 0);
+
+    const weightedSample loads(etas, etaVolume);
+    const weightedSample strained(strains, volumes);
+    return scalarList(
+        {loads.quantile(0.05),
+            loads.quantile(0.5),
+            loads.quantile(0.95),
+            strained.quantile(0.5),
+            strained.quantile(0.95),
+            strained.quantile(1),
+            low.first(),
+            high.first(),
+            low.second(),
+            high.second()}
+    );
+}
+
+
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
+
+Foam::functionObjects::bolusStatistics::bolusStatistics(
+    const word& name,
+    const Time& runTime,
+    const dictionary& dict
+) :
+    bolusMonitor(
+        name,
+        runTime,
+        dict,
+        typeName,
+        {"alpha", "mass", "D", "triaxiality", "sigmaEq", "epsilonPEq", "p"},
+        {"axis", "loaded"}
+    ),
+    axis_(readAxis(dict)),
+    loaded_(dict.lookupOrDefault<scalar>("loaded", 410))
+{
+    begin();
+}
+
+// ************************************************************************* //

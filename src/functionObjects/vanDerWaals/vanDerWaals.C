@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Copyright (C) 2026 the bolusFoam developers
+
+#include "vanDerWaals.H"
+
+Foam::vanDerWaals::vanDerWaals(const dictionary& dict) :
+    psi_(dict.lookupOrDefault<scalar>("psi", 1e5)),
+    lambdaM_(dict.lookupOrDefault<scalar>("lambdaM", 100)),
+    a_(dict.lookupOrDefault<scalar>("a", 0.5)),
+    beta_(dict.lookupOrDefault<scalar>("beta", 0)),
+    K_(dict.lookupOrDefault<scalar>("K", 2e6))
+{
+    auto within = [&](const char* entry, scalar x, bool valid, const char* what)
+    {
+        if (valid) return;
+        FatalIOErrorInFunction(dict)
+            << "entry " << entry << ": " << x << "; valid are " << what
+            << exit(FatalIOError);
+    };
+    within("psi", psi_, psi_ > 0, "moduli > 0 Pa");
+    within("lambdaM", lambdaM_, lambdaM_ > 2, "stretches > 2");
+    within("a", a_, a_ >= 0, "numbers >= 0");
+    within("beta", beta_, beta_ >= 0 && beta_ <= 1, "numbers >= 0 and <= 1");
+    within("K", K_, K_ > 0, "moduli > 0 Pa");
+}
+
+
+Foam::wordList Foam::vanDerWaals::entries()
+{
+    return wordList({"psi", "lambdaM", "a", "beta", "K"});
+}
+
+
+Foam::scalar Foam::vanDerWaals::energy(
+    const scalar l1,
+    const scalar l2,
+    const scalar l3
+) const
+{
+    const scalar J = l1 * l2 * l3;
+    const scalar s1 = sqr(l1), s2 = sqr(l2), s3 = sqr(l3);
+    const scalar I1 = std::pow(J, -2.0 / 3) * (s1 + s2 + s3);
+    const scalar I2 = std::pow(J, -4.0 / 3) * (s1 * s2 + s2 * s3 + s3 * s1);
+    // Round-off may leave a little less than 3
+    const scalar I = max((1 - beta_) * I1 + beta_ * I2, scalar(3));
+    const scalar locked = sqr(lambdaM_) - 3;
+    const scalar zeta = std::sqrt((I - 3) / locked);
+
+    return psi_
+        * (-locked * (std::log1p(-zeta) + zeta)
+            - 2.0 / 3 * a_ * std::pow((I - 3) / 2, 1.5))
+        + 0.5 * K_ * (0.5 * (sqr(J) - 1) - std::log(J));
+}
+
+
+Foam::scalar Foam::vanDerWaals::membrane(const scalar l1, const scalar l2) const
+{
+    // Golden section about the incompressible thickness: the energy has one
+    // minimum there, within what a bulk modulus of some shear moduli allows
+    const scalar golden = 0.5 * (std::sqrt(5.0) - 1);
+    scalar low = 0.5 / (l1 * l2);
+    scalar high = 2 / (l1 * l2);
+    for (label i = 0; i < 60; ++i)
+    {
+        const scalar x = high - golden * (high - low);
+        const scalar y = low + golden * (high - low);
+        if (energy(l1, l2, x) < energy(l1, l2, y))
+        {
+            high = y;
+        }
+        else
+        {
+            low = x;
+        }
+    }
+    return energy(l1, l2, 0.5 * (low + high));
+}
+
+// ************************************************************************* //

@@ -1,0 +1,274 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Copyright (C) 2026 the bolusFoam developers
+"""Studies of ./Allrun validate gastric: cases A to D on four meshes.
+
+A_1, A_0.6, ... are single runs (the paper's Fig. 8, and for case A its text row
+by row); cases_1, ... the four cases against each other (Fig. 9); convergence
+is case A from mesh to mesh. The runs are kept in run/validate/gastric/runs, so
+that a study that was stopped goes on where it was.
+"""
+
+import json
+from pathlib import Path
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt  # noqa: E402
+from matplotlib.animation import PillowWriter  # noqa: E402
+from matplotlib.colors import Normalize  # noqa: E402
+
+from bolus_validation import plots  # noqa: E402
+from bolus_validation.fields import Case  # noqa: E402
+from bolus_validation.report import CASE_A, Run  # noqa: E402
+from bolus_validation.results import energy_shares, read_table  # noqa: E402
+from bolus_validation.studies import (
+    Findings,
+    energy_residual,
+    kept_run,
+    study,
+)  # noqa: E402
+
+# Cell sizes [mm]; from 0.3 mm on the pylorus needs none that are shorter
+SIZES = (1.0, 0.6, 0.3, 0.15)
+CASES = "ABCD"
+TITLES = {
+    "A": "viscoplastic bolus that breaks, friction 0.9",
+    "B": "the same without friction",
+    "C": "the same without damage",
+    "D": "J law",
+}
+
+
+def gastric_run(case: str, size: float) -> Path:
+    """The folder of a run (kept_run) of a case on cells of a size [mm].
+
+    Raises RuntimeError if it gave up a step: its figures are not those of 32 s.
+    """
+    folder = kept_run(
+        f"gastric/case{case}",
+        "gastric",
+        resolution=size * 1e-3,
+        pylorusRefinement=max(2.5 * size, 1.0),
+    )
+    if (folder / "stopped").exists():
+        raise RuntimeError((folder / "stopped").read_text())
+    return folder
+
+
+def figures(folder: Path) -> dict:
+    """{quantity: (value, unit)} of a run, as the page compares them."""
+    every = json.loads((folder / "results.json").read_text())
+    found = every["results"]
+    area = read_table(folder, "freeSurface")
+    first = found["damagedVolume"].get("firstDamage")
+    return {
+        "peak force": (found["contactForce"]["total"]["peak"]["value"], "N"),
+        "work": (found["externalWork"]["work"]["final"]["value"], "J"),
+        "retained mass": (
+            found["retainedMass"]["retained"]["final"]["value"],
+            "-",
+        ),
+        "first damage": (first["value"] if first else float("inf"), "s"),
+        "external surface": (area["externalArea"][-1], "m2"),
+    }
+
+
+def holds(found: Findings, what: str, true: bool, remark: str = "") -> None:
+    """A row for a statement: 1 where it holds, which is what it should."""
+    found.row(what, "-", float(true), 1.0, 0.0, remark=remark)
+
+
+def animation(folder: Path, target: Path) -> None:
+    """Damage of the bolus through time, as a GIF."""
+    case = Case(folder)
+    times = [t for t in case.times if case.has(t, "D")]
+    norm = Normalize(0, 1)
+    figure, axes = plt.subplots(figsize=(7, 5))
+    writer = PillowWriter(fps=6)
+    with writer.saving(figure, target, dpi=80):
+        for time in times:
+            axes.clear()
+            plots._frame(axes, case, time)
+            section = case.mesh(time).section
+            bolus = case.field(time, "alpha")[section.cells] > 0.5
+            damage = case.field(time, "D")[section.cells]
+            plots._paint(axes, section, bolus, damage, norm, "cividis_r")
+            axes.set(xlabel="x [mm]", ylabel="r [mm]")
+            writer.grab_frame()
+    plt.close(figure)
+
+
+def cost(found: Findings, folder: Path) -> None:
+    """Rows of what a run took and of what it has to keep."""
+    numbers = json.loads((folder / "results.json").read_text())["run"]
+    for name, unit in (
+        ("cells", "-"),
+        ("steps", "-"),
+        ("rejectedSteps", "-"),
+        ("newtonIterations", "-"),
+        ("clockTime", "s"),
+    ):
+        found.row(name, unit, numbers[name]["value"])
+    mass = read_table(folder, "retainedMass")
+    found.row(
+        "mass: inside plus emptied",
+        "-",
+        max(mass["balanceError"], key=abs),
+        0.0,
+        1e-3,
+        1,
+    )
+    found.row(
+        "passed the closed pylorus",
+        "-",
+        mass["passedWhileClosed"][-1],
+        0.0,
+        1e-4,
+        1,
+    )
+    energy = read_table(folder, "energyBalance")
+    energy_residual(found, energy, "energy", 0.02)
+    for name, share in energy_shares(energy).items():
+        found.row(f"energy, share of {name}", "-", share[-1])
+
+
+def register_run(case: str, size: float) -> None:
+    """The study of one run."""
+
+    @study(
+        f"{case}_{size:g}",
+        case,
+        f"Case {case} on {size:g} mm: {TITLES[case]}",
+        "what the paper reports (facts of its Figs. 8 and 9)"
+        if case == "A"
+        else "its own balances",
+    )
+    def run_study(folder: Path, quick: bool) -> Findings:
+        found = Findings()
+        path = gastric_run(case, size)
+        cost(found, path)
+        if case == "A":
+            run = Run(path)
+            for row in CASE_A:
+                text, agrees = row.find(run)
+                if agrees is not None:
+                    holds(
+                        found,
+                        f"{row.when}: {row.paper}",
+                        agrees is True,
+                        f"{text} (agrees if {row.agrees_if})",
+                    )
+        pages = [
+            page
+            for quantity in plots.BOLUS_FIELDS
+            if plots.contour_page(
+                Case(path),
+                quantity,
+                folder / (page := f"{quantity.field}.png"),
+            )
+        ]
+        animation(path, folder / "damage.gif")
+        plots.pieces(path, folder / "pieces.png")
+        found.picture, *found.more = [*pages, "pieces.png", "damage.gif"]
+        return found
+
+
+def register_cases(size: float) -> None:
+    """The four cases against each other."""
+
+    @study(
+        f"cases_{size:g}",
+        "E",
+        f"Cases A to D on {size:g} mm: force, work, retained mass",
+        "what the paper says of its Fig. 9",
+    )
+    def run_study(folder: Path, quick: bool) -> Findings:
+        found = Findings()
+        paths = {c: gastric_run(c, size) for c in CASES}
+        of = {c: figures(path) for c, path in paths.items()}
+        for c, numbers in of.items():
+            for name, (number, unit) in numbers.items():
+                found.row(f"{name}, {c}", unit, number)
+
+        def number(c: str, name: str) -> float:
+            return of[c][name][0]
+
+        damaged = read_table(paths["B"], "damagedVolume")
+        holds(
+            found,
+            "B never damages",
+            number("B", "first damage") == float("inf"),
+            f"first damage at {number('B', 'first damage'):.4g} s; damaged "
+            f"part of the bolus at the end {damaged['fraction'][-1]:.3g}",
+        )
+        for name in ("peak force", "work"):
+            holds(
+                found,
+                f"B: lowest {name}",
+                all(number("B", name) < number(c, name) for c in "ACD"),
+            )
+            holds(
+                found,
+                f"D: {name} far above all",
+                all(number("D", name) > 2 * number(c, name) for c in "ABC"),
+                "agrees if twice that of any other",
+            )
+        holds(
+            found,
+            "B: most emptied",
+            all(
+                number("B", "retained mass") < number(c, "retained mass")
+                for c in "ACD"
+            ),
+        )
+        holds(
+            found,
+            "C: more work than A",
+            number("C", "work") > number("A", "work"),
+        )
+        holds(
+            found,
+            "C: retained mass slightly lower than A",
+            0.9
+            < number("C", "retained mass") / number("A", "retained mass")
+            < 1,
+            "agrees if by less than 10 %",
+        )
+        plots.curves(list(paths.values()), folder / "curves.png")
+        found.picture = "curves.png"
+        return found
+
+
+for _size in SIZES:
+    for _case in CASES:
+        register_run(_case, _size)
+    register_cases(_size)
+
+
+@study(
+    "convergence",
+    "F",
+    "Case A from mesh to mesh",
+    "the next coarser mesh; 5 %, and 0.5 s for the first damage, from 0.3 to "
+    "0.15 mm",
+)
+def convergence(folder: Path, quick: bool) -> Findings:
+    found = Findings()
+    paths = [gastric_run("A", size) for size in SIZES]
+    every = [figures(path) for path in paths]
+    for i, size in enumerate(SIZES[1:], 1):
+        finest = size == SIZES[-1]
+        for name, (number, unit) in every[i].items():
+            seconds = name == "first damage"
+            found.row(
+                f"{name}, {SIZES[i - 1]:g} to {size:g} mm",
+                unit,
+                number,
+                every[i - 1][name][0],
+                (0.5 if seconds else 0.05) if finest else None,
+                1.0 if seconds else None,
+            )
+    plots.curves(paths, folder / "curves.png")
+    found.picture = "curves.png"
+    return found
