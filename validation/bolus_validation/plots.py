@@ -102,7 +102,7 @@ def _mirrored(section: Section, chosen: np.ndarray):
     return every
 
 
-def _paint(axes, section: Section, chosen, values, norm, colours) -> None:
+def paint(axes, section: Section, chosen, values, norm, colours) -> None:
     """Colour cells by values, given per polygon of the section."""
     polygons = _mirrored(section, chosen)
     values = values[chosen]
@@ -120,7 +120,7 @@ def _paint(axes, section: Section, chosen, values, norm, colours) -> None:
     )
 
 
-def _frame(axes, case: Case, time: float) -> None:
+def frame(axes, case: Case, time: float) -> None:
     """Lumen, wall, axes in mm, and the time."""
     mesh = case.mesh(time)
     section = mesh.section
@@ -144,7 +144,7 @@ def _frame(axes, case: Case, time: float) -> None:
     axes.tick_params(labelsize=7)
 
 
-def _sheet(case: Case, time: float, rows: int, columns: int):
+def sheet(case: Case, time: float, rows: int, columns: int):
     """A figure of panels that have the shape of the mesh, and its axes."""
     corners = MM * np.vstack(case.mesh(time).section.polygons)
     wide, high = np.ptp(corners, axis=0)
@@ -200,13 +200,13 @@ def contour_page(
 
     columns = min(len(shown), 5)
     rows = -(-len(shown) // columns)
-    figure, grid = _sheet(case, shown[-1], rows, columns)
+    figure, grid = sheet(case, shown[-1], rows, columns)
     for axes in grid.flat[len(shown) :]:
         axes.set_axis_off()
     for axes, time in zip(grid.flat, shown, strict=False):
-        _frame(axes, case, time)
+        frame(axes, case, time)
         bolus, values = cells[time]
-        _paint(
+        paint(
             axes,
             case.mesh(time).section,
             bolus,
@@ -270,7 +270,7 @@ def overview(case: Case, target: Path, number: int = 8) -> bool:
     # A row of alpha above a row of p, four times to a row
     columns = min(len(times), 4)
     bands = -(-len(times) // columns)
-    figure, grid = _sheet(case, times[-1], 2 * bands, columns)
+    figure, grid = sheet(case, times[-1], 2 * bands, columns)
     for axes in grid.flat:
         axes.set_axis_off()
     for i, time in enumerate(times):
@@ -279,11 +279,11 @@ def overview(case: Case, target: Path, number: int = 8) -> bool:
         for j, (name, scale, norm, colours, *_) in enumerate(shown):
             axes = grid[2 * (i // columns) + j, i % columns]
             axes.set_axis_on()
-            _frame(axes, case, time)
+            frame(axes, case, time)
             # alpha of every cell that holds any; p where there is bolus
             chosen = alpha > (0.01 if name == "alpha" else 0.5)
             values = scale * case.field(time, name)[section.cells]
-            _paint(axes, section, chosen, values, norm, colours)
+            paint(axes, section, chosen, values, norm, colours)
     for axes in grid[-1]:
         axes.set_xlabel("x [mm]", fontsize=8)
     for axes in grid[:, 0]:
