@@ -196,6 +196,12 @@ Foam::bolusFields::bolusFields(
         soundStrain = (1 - D) * epsilonPEq;
     }
     soundStrain.correctBoundaryConditions();
+    if (law.damage().nonlocalLength() > 0)
+    {
+        average_.reset(
+            new nonlocalStrain(mesh, law.damage().nonlocalLength())
+        );
+    }
     derive();
 }
 
@@ -286,14 +292,20 @@ Foam::scalar Foam::bolusFields::damage(const scalar thinnest)
 {
     if (!law_.damage().active()) return 0;
 
+    scalarField strain(soundStrain / max(1 - D, SMALL));
+    if (average_.valid())
+    {
+        const scalarField sound(mass * max(1 - D, scalar(0)));
+        strain = average_->update(sound, strain);
+    }
+
     // Also in the cells of the surface: a break must not stop at a skin
     scalar volume = 0;
     forAll(D, c)
     {
         if (alpha[c] < thinnest || D[c] > 0.5) continue;
         const scalar q = elastoViscoPlastic::sigmaEq(deviator[c]);
-        const scalar strain = soundStrain[c] / (1 - D[c]);
-        if (q < SMALL || !law_.damage().onset(strain, -p[c] / q)) continue;
+        if (q < SMALL || !law_.damage().onset(strain[c], -p[c] / q)) continue;
         D[c] = 1;
         soundStrain[c] = 0;
         volume += mass[c] * mesh_.V()[c];

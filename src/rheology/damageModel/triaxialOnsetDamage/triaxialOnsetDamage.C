@@ -39,6 +39,12 @@ Foam::damageModels::triaxialOnsetDamage::triaxialOnsetDamage(
         {0, false, 1, true},
         1e-4
     );
+    nonlocalLength_ = read.number(
+        "nonlocalLength",
+        "length over which the plastic strain is averaged [m]",
+        entryReader::nonNegative,
+        0
+    );
 
     read.rejectOthers();
 }
