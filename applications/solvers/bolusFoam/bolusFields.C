@@ -198,9 +198,7 @@ Foam::bolusFields::bolusFields(
     soundStrain.correctBoundaryConditions();
     if (law.damage().nonlocalLength() > 0)
     {
-        average_.reset(
-            new nonlocalStrain(mesh, law.damage().nonlocalLength())
-        );
+        average_.reset(new nonlocalStrain(mesh, law.damage().nonlocalLength()));
     }
     derive();
 }

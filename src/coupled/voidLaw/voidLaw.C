@@ -18,7 +18,7 @@ Foam::voidLaw::voidLaw(const dictionary& dict)
         "seal",
         "void fraction that bolus tolerates [-]",
         {0, false, 0.4, true},
-        0.02
+        0.4
     );
     closing_ = read.number(
         "closing",
