@@ -128,6 +128,22 @@ MUTATIONS = (
         "test_physics_contact.py -k barInTension",
     ),
     Mutation(
+        "nonlocal strain without its length",
+        "src/coupled/nonlocalStrain/nonlocalStrain.C",
+        "sqr(length_)",
+        "sqr(0.5 * length_)",
+        COUPLED,
+        "test_nonlocal.py -k spreads",
+    ),
+    Mutation(
+        "nonlocal strain passes through broken bolus",
+        "src/coupled/nonlocalStrain/nonlocalStrain.C",
+        "= max(sound, scalar(0)) + nothing;",
+        "= 0 * sound + 1;",
+        COUPLED,
+        "test_nonlocal.py -k broken",
+    ),
+    Mutation(
         "a wall pulls",
         SYSTEM,
         "phi_[c] = damaged_[c] || atWall",

@@ -31,7 +31,7 @@ from bolus_validation.synthetic import run, write_file
 RATES = [0.01, 0.1, 1.0]
 
 # Coarse, and still fine across the free surface, where it matters
-COARSE = {"nAxial": 10, "nRadial": 48}
+COARSE = {"nAxial": 10, "nRadial": 52}
 
 
 def flow_stress(rate: float) -> float:

@@ -36,7 +36,7 @@ const Foam::volScalarField& Foam::nonlocalStrain::update(
 {
     const fvMesh& mesh = average_.mesh();
 
-    // Cells without sound bolus keep a row of their own, which gives them 0
+    // Cells without sound bolus keep a row of their own
     const scalar nothing = 1e-9;
 
     volScalarField weight(
@@ -69,6 +69,12 @@ const Foam::volScalarField& Foam::nonlocalStrain::update(
     control.add("tolerance", scalar(1e-10));
     control.add("relTol", scalar(0));
     equation.solve(control);
+
+    forAll(average_, c)
+    {
+        if (sound[c] <= 0) average_[c] = 0;
+    }
+    average_.correctBoundaryConditions();
 
     return average_;
 }
