@@ -32,6 +32,7 @@ Usage
 #include "progress.H"
 #include "stepControl.H"
 #include "voidLaw.H"
+#include "writtenTime.H"
 
 using namespace Foam;
 
@@ -79,6 +80,8 @@ int main(int argc, char* argv[])
             << exit(FatalError);
     }
 
+    writtenTime written(runTime);
+
     autoPtr<dynamicFvMesh> meshPtr(
         dynamicFvMesh::New(IOobject(
             dynamicFvMesh::defaultRegion,
@@ -116,6 +119,7 @@ int main(int argc, char* argv[])
 
     while (runTime.run())
     {
+        written.complete();
         fields.store();
         control.start();
 
@@ -129,6 +133,28 @@ int main(int argc, char* argv[])
             mesh.update();
             solved = system.solve(runTime.deltaTValue());
 
+            if (solved.converged)
+            {
+                if (args.found("checkTangent"))
+                {
+                    Info << "Tangent against finite differences: "
+                         << system.checkTangent(runTime.deltaTValue()) << endl;
+                }
+                system.accept(fields.phi, fields.wallForce, fields.wallPower);
+                moved = transport.advance(
+                    fields.phi, runTime.deltaTValue(), fields.massFlux
+                );
+                // A piece that nothing holds was shot off; bolus burst
+                if (moved.tooFast || !(moved.alphaMax < transport.burst()))
+                {
+                    fields.restore();
+                    solved.converged = false;
+                    solved.reason = moved.tooFast
+                        ? "flow too fast for maxSubSteps"
+                        : "alpha beyond all bounds";
+                }
+            }
+
             if (!solved.converged)
             {
                 Info << "t " << runTime.value() << " s, dt "
@@ -140,17 +166,6 @@ int main(int argc, char* argv[])
                 if (!control.retry()) giveUp(runTime, control, solved);
                 continue;
             }
-
-            if (args.found("checkTangent"))
-            {
-                Info << "Tangent against finite differences: "
-                     << system.checkTangent(runTime.deltaTValue()) << endl;
-            }
-
-            system.accept(fields.phi, fields.wallForce, fields.wallPower);
-            moved = transport.advance(
-                fields.phi, runTime.deltaTValue(), fields.massFlux
-            );
 
             // A cell cannot hold more than it has room for: the step was too
             // long for the void that it had to close. Where two shorter ones
@@ -171,8 +186,9 @@ int main(int argc, char* argv[])
         control.done(solved.iterations, moved.bulkCourant);
         report.step(solved, moved);
 
-        if (control.write()) runTime.writeNow();
+        if (control.write()) written.write();
     }
+    written.complete();
 
     report.summary();
     Info << "End" << nl << endl;

@@ -107,8 +107,10 @@ void Foam::progress::step(
     lastLine_ = now;
 
     const scalar done = time_.value() - startTime_;
+    // Bounded: it is counted in whole minutes
     const scalar left =
-        now * (time_.endTime().value() - time_.value()) / max(done, VSMALL);
+        min(now * (time_.endTime().value() - time_.value()) / max(done, VSMALL),
+            scalar(6e5));
 
     char line[256];
     snprintf(

@@ -239,8 +239,9 @@ Foam::coupledSystem::coupledSystem(
     tolerance_ = read.number(
         "tolerance", "rms of the scaled residuals [-]", positive, 1e-6
     );
-    maxIterations_ =
-        label(read.number("maxIterations", "of Newton's method", positive, 60));
+    maxIterations_ = label(read.number(
+        "maxIterations", "of Newton's method", {1, true, 1e5, true}, 60
+    ));
     hourglass_ =
         read.number("hourglass", "hourglass control [-]", nonNegative, 0.05);
     overfillTime_ = read.number(

@@ -86,7 +86,7 @@ Foam::historyTransport::historyTransport(
         0.3
     );
     maxSubSteps_ = label(
-        read.number("maxSubSteps", "sub-steps", entryReader::positive, 1000)
+        read.number("maxSubSteps", "sub-steps", {1, true, 1e6, true}, 1000)
     );
     maxAlpha_ = read.number(
         "maxAlpha", "fullest cell of a step [-]", {1, false, GREAT, true}, 1.2
@@ -319,13 +319,9 @@ Foam::historyTransport::report Foam::historyTransport::advance(
     report result;
     courant(phiRel, deltaT, result.courant, result.bulkCourant);
     result.subSteps = max(label(std::ceil(result.courant / maxCourant_)), 1);
-    if (result.subSteps > maxSubSteps_)
-    {
-        WarningInFunction << "the flow would need " << result.subSteps
-                          << " sub-steps; " << maxSubSteps_
-                          << " (entry maxSubSteps) are taken" << endl;
-        result.subSteps = maxSubSteps_;
-    }
+    result.tooFast = result.subSteps > maxSubSteps_;
+    result.alphaMax = result.spilled = 0;
+    if (result.tooFast) return result;
     const scalar dt = deltaT / result.subSteps;
 
     const label nCells = mesh_.nCells();

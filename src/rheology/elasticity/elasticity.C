@@ -10,7 +10,8 @@ Foam::elasticity::elasticity(const dictionary& dict)
 {
     entryReader read(dict);
 
-    E_ = read.number("E", "Young's modulus [Pa]", entryReader::positive);
+    // The bound keeps squares of it within what a computer counts
+    E_ = read.number("E", "Young's modulus [Pa]", {0, false, 1e12, true});
     nu_ = read.number("nu", "Poisson's ratio [-]", {0, true, 0.5, false});
 
     read.rejectOthers();

@@ -1,0 +1,72 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Copyright (C) 2026 the bolusFoam developers
+"""Each entry of the dictionaries spoilt in six ways; runs killed at random."""
+
+import argparse
+import collections
+import json
+import random
+import shutil
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).parents[1]))
+
+from bolus_validation import robustness as rough  # noqa: E402
+from bolus_validation.robustness_cases import BASES, kill_test  # noqa: E402
+
+ROOT = Path(__file__).parents[2]
+BASE = ROOT / "run" / "validate" / "robustness"
+
+if __name__ == "__main__":
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("names", nargs="*", help=", ".join([*BASES, "kills"]))
+    given = parser.parse_args()
+    names = given.names or [*BASES, "kills"]
+    unknown = set(names) - {*BASES, "kills"}
+    if unknown:
+        sys.exit(
+            f"robustness: no {', '.join(unknown)}; there are "
+            f"{', '.join([*BASES, 'kills'])}"
+        )
+    BASE.mkdir(parents=True, exist_ok=True)
+    counts, faults = collections.Counter(), []
+    for name in names:
+        if name == "kills":
+            continue
+        folder = BASE / name
+        shutil.rmtree(folder, ignore_errors=True)
+        command, files = BASES[name](folder)
+        found = []
+        for file, only in files:
+            for outcome in rough.fuzz(folder, file, command, only):
+                found.append(outcome)
+                counts[outcome.verdict] += 1
+                if outcome.fault:
+                    faults.append(outcome)
+                    print(
+                        f"{outcome.verdict}: {name} {outcome.file} "
+                        f"{outcome.entry} {outcome.spoil}\n"
+                        f"    {outcome.message[:300]!r}",
+                        flush=True,
+                    )
+        verdicts = collections.Counter(o.verdict for o in found)
+        (BASE / f"{name}.json").write_text(
+            json.dumps([vars(o) for o in found], indent=1)
+        )
+        print(f"{name}: {len(found)} bad inputs, {dict(verdicts)}", flush=True)
+    if counts:
+        print(
+            f"fuzz: {counts.total()} bad inputs: "
+            + ", ".join(f"{v} {k}" for k, v in sorted(counts.items()))
+            + f"; {len(faults)} faults"
+        )
+    lost = 0
+    if "kills" in names:
+        worst = kill_test(BASE / "kills", 5, random.Random())
+        lost = sum(w > 1e-5 for w in worst)
+        print(
+            f"kills: {len(worst)}, largest difference from the run that was "
+            f"left alone {max(worst):.1e}, lost {lost}"
+        )
+    sys.exit(bool(faults or lost))
