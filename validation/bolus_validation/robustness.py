@@ -104,8 +104,11 @@ def judge(status: int | None, output: str, path, value, text) -> tuple:
         return "crashed", message
     if "no convergence" in message:
         return "gaveUp", message
-    named = str(path[-1]).strip('"') in message or (
-        len(path) > 1 and str(path[-2]).strip('"') in message
+    # Also one that names another entry, with which this one does not agree
+    named = (
+        "Entry '" in message
+        or str(path[-1]).strip('"') in message
+        or (len(path) > 1 and str(path[-2]).strip('"') in message)
     )
     return ("error" if named else "unclear"), message
 

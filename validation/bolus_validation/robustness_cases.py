@@ -131,7 +131,7 @@ def gastric(folder: Path):
             "system/controlDict",
             lambda p: p[0] == "functions" and ours(p),
         ),
-        ("constant/dynamicMeshDict", None),
+        ("constant/dynamicMeshDict", lambda p: p[0] == "motionSolver"),
     )
     for file, _ in files:
         expand(folder, file)
@@ -146,7 +146,7 @@ def cutting(folder: Path):
     )
     clean(folder)
     files = (
-        ("constant/dynamicMeshDict", None),
+        ("constant/dynamicMeshDict", lambda p: p[0] == "rigidToolCoeffs"),
         ("system/controlDict", ours),
     )
     for file, _ in files:

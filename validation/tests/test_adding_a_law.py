@@ -67,7 +67,7 @@ def test_the_law_of_the_page_follows_its_equation(
     done = rheology.run_material_point(text, tmp_path)
     assert done.returncode == 0, done.stdout + done.stderr
     table = rheology.read_table(tmp_path / "point.dat")["compression"]
-    strain, stress = abs(table["strain"]), abs(table["sigma"])
+    strain, stress = abs(table["axialStrain"]), abs(table["axialStress"])
 
     def exact(e):
         def residual(s):

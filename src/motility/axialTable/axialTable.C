@@ -2,7 +2,7 @@
 // Copyright (C) 2026 the bolusFoam developers
 
 #include "axialTable.H"
-#include "Tuple2.H"
+#include "dictionaryCheck.H"
 
 #include <algorithm>
 
@@ -103,7 +103,7 @@ Foam::axialTable::axialTable(
     interpolation_(interpolation)
 {
     const List<Tuple2<scalar, scalar>> points(
-        dict.get<List<Tuple2<scalar, scalar>>>(name)
+        dictionaryCheck::table(dict, name)
     );
 
     if (points.size() < 2)

@@ -69,6 +69,21 @@ const Foam::dictionary& Foam::dictionaryCheck::section(
 }
 
 
+Foam::List<Foam::Tuple2<Foam::scalar, Foam::scalar>>
+Foam::dictionaryCheck::table(const dictionary& dict, const word& name)
+{
+    // A bare number would be taken for the length of a list
+    const token first(dict.lookup(name));
+    if (!first.isPunctuation() && !(first.isLabel() && first.labelToken() > 0))
+    {
+        FatalIOErrorInFunction(dict)
+            << "Entry '" << name << "' begins with " << first.info()
+            << "; valid is a table ((x0 y0) (x1 y1) ...)" << exit(FatalIOError);
+    }
+    return dict.get<List<Tuple2<scalar, scalar>>>(name);
+}
+
+
 Foam::scalar Foam::dictionaryCheck::positive(
     const dictionary& dict,
     const word& name
