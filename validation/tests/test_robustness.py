@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 the bolusFoam developers
-"""Bad input, kills, full disks. All dictionaries: ./Allrun validate robustness."""
+"""Bad input, kills, full disks; all of it: ./Allrun validate robustness."""
 
 import os
 import random

@@ -567,6 +567,9 @@ def translation_study(folder: Path, quick: bool) -> Findings:
 def _disc_meshes(found, folder, quick, name, length, motion) -> None:
     """Rows, orders and picture of a disc on several meshes."""
     meshes = (20,) if quick else (20, 40, 80)
+    if name == "rotation" and not quick:
+        # A turn is three times the way of the translation: ten minutes
+        meshes += (160,)
     changes = []
     for n in meshes:
         # Courant numbers up to 5, sub-steps take care of that
