@@ -31,6 +31,7 @@ STOCK = {
     "application",
     "startFrom",
     "startTime",
+    "endTime",  # 1e30 s is a long run, not a bad one
     "stopAt",
     "writeControl",
     "writeFormat",
