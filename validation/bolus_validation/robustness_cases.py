@@ -148,7 +148,10 @@ def cutting(folder: Path):
     clean(folder)
     files = (
         ("constant/dynamicMeshDict", lambda p: p[0] == "rigidToolCoeffs"),
-        ("system/controlDict", ours),
+        (
+            "system/controlDict",
+            lambda p: p[0] == "functions" and ours(p),
+        ),
     )
     for file, _ in files:
         expand(folder, file)

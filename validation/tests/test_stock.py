@@ -94,7 +94,9 @@ def test_foam_to_vtk_reads_every_tutorial(tutorial, tmp_path):
     written = list((case / "VTK").rglob("internal.vtu"))
     assert written
     text = written[0].read_bytes()
-    assert all(f"Name='{n}'".encode() in text for n in ("alpha", "D", "sigmaEq"))
+    assert all(
+        f"Name='{n}'".encode() in text for n in ("alpha", "D", "sigmaEq")
+    )
 
 
 def test_every_tutorial_with_a_mesh_is_among_these():

@@ -69,8 +69,11 @@ const Foam::dictionary& Foam::dictionaryCheck::section(
 }
 
 
-Foam::List<Foam::Tuple2<Foam::scalar, Foam::scalar>>
-Foam::dictionaryCheck::table(const dictionary& dict, const word& name)
+void Foam::dictionaryCheck::isList(
+    const dictionary& dict,
+    const word& name,
+    const string& valid
+)
 {
     // A bare number would be taken for the length of a list
     const token first(dict.lookup(name));
@@ -78,8 +81,15 @@ Foam::dictionaryCheck::table(const dictionary& dict, const word& name)
     {
         FatalIOErrorInFunction(dict)
             << "Entry '" << name << "' begins with " << first.info()
-            << "; valid is a table ((x0 y0) (x1 y1) ...)" << exit(FatalIOError);
+            << "; valid is " << valid.c_str() << exit(FatalIOError);
     }
+}
+
+
+Foam::List<Foam::Tuple2<Foam::scalar, Foam::scalar>>
+Foam::dictionaryCheck::table(const dictionary& dict, const word& name)
+{
+    isList(dict, name, "a table ((x0 y0) (x1 y1) ...)");
     return dict.get<List<Tuple2<scalar, scalar>>>(name);
 }
 

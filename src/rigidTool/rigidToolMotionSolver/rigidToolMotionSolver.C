@@ -130,6 +130,7 @@ void Foam::rigidToolMotionSolver::setExtents()
     reduce(back_, minOp<scalar>());
     reduce(front_, maxOp<scalar>());
 
+    dictionaryCheck::isList(coeffs_, "rigidZone", "(ahead behind) [m]");
     const FixedList<scalar, 2> margins(
         coeffs_.get<FixedList<scalar, 2>>("rigidZone")
     );

@@ -2,6 +2,8 @@
 // Copyright (C) 2026 the bolusFoam developers
 
 #include "toolHistory.H"
+
+#include "dictionaryCheck.H"
 #include "Tuple2.H"
 
 #include <algorithm>
@@ -35,7 +37,7 @@ Foam::toolHistory::toolHistory(
     }
 
     const List<Tuple2<scalar, scalar>> points(
-        dict.get<List<Tuple2<scalar, scalar>>>("history")
+        dictionaryCheck::table(dict, "history")
     );
 
     if (points.size() < 2)
