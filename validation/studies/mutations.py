@@ -101,7 +101,7 @@ MUTATIONS = (
         "epsP > epsilonPEq0_ &&",
         "epsP > 2 * epsilonPEq0_ &&",
         RHEOLOGY,
-        "test_solver.py -k breaks_at_the_plastic_strain",
+        "test_solver_damage.py -k breaks_at_the_plastic_strain",
     ),
     Mutation(
         "damaged bolus keeps its tension",
@@ -109,7 +109,7 @@ MUTATIONS = (
         "phi_[c] = damaged_[c] || atWall",
         "phi_[c] = atWall",
         COUPLED,
-        "test_solver.py -k damaged_bar_carries_no_force_in_tension",
+        "test_solver_damage.py -k damaged_bar_carries_no_force_in_tension",
     ),
     Mutation(
         "damaged bolus loses its pressure",
@@ -117,7 +117,7 @@ MUTATIONS = (
         "r.P = -(a * p + (1 - a) * r.pv);",
         "r.P = -(damaged_[c] ? 0 : 1) * (a * p + (1 - a) * r.pv);",
         COUPLED,
-        "test_solver.py -k damaged_bar_carries_pressure",
+        "test_solver_damage.py -k damaged_bar_carries_pressure",
     ),
     Mutation(
         "broken bolus breaks its neighbours",
@@ -149,7 +149,7 @@ MUTATIONS = (
         "phi_[c] = damaged_[c] || atWall",
         "phi_[c] = damaged_[c]",
         COUPLED,
-        "test_solver.py -k pulled_away",
+        "test_solver_contact.py -k pulled_away",
     ),
     Mutation(
         "no friction",
@@ -157,7 +157,7 @@ MUTATIONS = (
         "if (k.pn <= 0) return false;",
         "return false;",
         COUPLED,
-        "test_solver.py -k sliding_block",
+        "test_solver_contact.py -k sliding_block",
     ),
     Mutation(
         "friction fades where the bolus ends",
