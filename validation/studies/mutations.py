@@ -144,6 +144,22 @@ MUTATIONS = (
         "test_nonlocal.py -k broken",
     ),
     Mutation(
+        "a flow too fast is moved as far as it goes",
+        TRANSPORT,
+        "if (result.tooFast) return result;",
+        "result.tooFast = false;",
+        COUPLED,
+        "test_solver_input.py -k too_fast",
+    ),
+    Mutation(
+        "half a time is as good as a whole one",
+        "applications/solvers/bolusFoam/writtenTime.C",
+        "&& !isFile(mark(folder))",
+        "&& false",
+        SOLVER,
+        "test_robustness.py -k to_its_end",
+    ),
+    Mutation(
         "a wall pulls",
         SYSTEM,
         "phi_[c] = damaged_[c] || atWall",

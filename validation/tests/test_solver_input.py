@@ -6,6 +6,7 @@ import re
 import shutil
 
 import pytest
+from bolus_validation.results import read_table
 from bolus_validation.specimens import (
     prepare_compression,
     replace,
@@ -240,3 +241,22 @@ def test_a_step_that_cannot_converge_ends_the_run_and_keeps_what_was_written(
     assert "minDeltaT 0.01" in message
     assert sorted(p.name for p in case.glob("0.[0-9]*")) == before
     assert (case / "0.4" / "p").read_bytes() == kept
+
+
+def test_a_flow_too_fast_to_be_moved_is_rejected_and_loses_nothing(
+    sound, tmp_path
+):
+    # Sub-steps of a thousandth of a cell, at most ten: the steps get shorter
+    case = spoilt(sound, tmp_path / "case")
+    replace(case / "system" / "timeParameters", "endTime [^;]*", "endTime 0.2")
+    replace(
+        case / "system" / "fvSolution",
+        r"transport \{\}",
+        "transport { maxCourant 1e-3; maxSubSteps 10; }",
+    )
+    output = run(case, "bolusFoam")
+    assert "flow too fast for maxSubSteps" in output
+    steps = read_table(case, "solver", "steps")
+    assert steps["rejected"][-1] > 0
+    assert steps["subSteps"].max() <= 10
+    assert abs(steps["massError"]).max() < 1e-12
