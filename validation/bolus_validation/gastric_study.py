@@ -89,11 +89,11 @@ def animation(folder: Path, target: Path) -> None:
     with writer.saving(figure, target, dpi=80):
         for time in times:
             axes.clear()
-            plots._frame(axes, case, time)
+            plots.frame(axes, case, time)
             section = case.mesh(time).section
             bolus = case.field(time, "alpha")[section.cells] > 0.5
             damage = case.field(time, "D")[section.cells]
-            plots._paint(axes, section, bolus, damage, norm, "cividis_r")
+            plots.paint(axes, section, bolus, damage, norm, "cividis_r")
             axes.set(xlabel="x [mm]", ylabel="r [mm]")
             writer.grab_frame()
     plt.close(figure)
