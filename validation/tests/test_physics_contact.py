@@ -6,7 +6,11 @@ The full ones: ./Allrun validate physics.
 """
 
 import pytest
-from bolus_validation.physics import contact, fracture  # noqa: F401
+from bolus_validation.physics import (  # noqa: F401
+    confined,
+    contact,
+    fracture,
+)
 from bolus_validation.studies import REGISTRY
 
 FAST = (
