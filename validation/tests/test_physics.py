@@ -11,7 +11,7 @@ import importlib
 import pytest
 from bolus_validation.studies import REGISTRY
 
-for _name in ("elasticity", "flow", "limit", "objectivity"):
+for _name in ("elasticity", "flow", "limit", "objectivity", "turning"):
     importlib.import_module(f"bolus_validation.physics.{_name}")
 
 STUDIES = (
