@@ -104,11 +104,13 @@ def judge(status: int | None, output: str, path, value, text) -> tuple:
         return "crashed", message
     if "no convergence" in message:
         return "gaveUp", message
-    # Also one that names another entry, with which this one does not agree
-    named = (
-        "Entry '" in message
-        or str(path[-1]).strip('"') in message
-        or (len(path) > 1 and str(path[-2]).strip('"') in message)
+    # As a word of its own, after the headline and before the source's line: "E"
+    # is in every error. Or another entry, with which this one does not agree;
+    # or, where a stock OpenFOAM selects, the word that it does not know
+    body = message.partition("\n")[2].partition("From function")[0]
+    named = any(words in body for words in ("Entry '", "banana")) or any(
+        re.search(rf"(?<!\w){re.escape(str(name))}(?!\w)", body)
+        for name in (key.strip('"') for key in path[-2:])
     )
     return ("error" if named else "unclear"), message
 

@@ -12,6 +12,7 @@ import shutil
 import signal
 import subprocess
 import time
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -174,14 +175,8 @@ BASES = {
 PRESS = (
     "rheology/compression",
     *("-set", "writeStrain=0.01", "-set", "strainStep=0.005"),
-    *(
-        "-set",
-        "unloadStrain=0",
-        "-set",
-        "nAxial=16",
-        "-set",
-        "friction=coulomb",
-    ),
+    *("-set", "unloadStrain=0", "-set", "nAxial=16"),
+    *("-set", "friction=coulomb"),
 )
 
 
@@ -204,15 +199,45 @@ def difference(case: Path, reference: Path) -> float:
     return float(max(worst, np.max(abs(a - b)) / np.max(abs(b))))
 
 
-def kill_test(folder: Path, kills: int, rng: random.Random) -> list:
-    """Kill as many runs at a random moment (every other one while it writes),
-    continue each, and return their differences from the run left alone."""
+@dataclass
+class Kill:
+    """A run that was killed and continued.
+
+    times       written before, also in part
+    writing     whether the last of them was being written
+    difference  from the run that was left alone, see difference()
+    """
+
+    times: int
+    writing: bool
+    difference: float
+
+
+def written(case: Path) -> list[Path]:
+    """Folders of the times of a run, without the start, in order."""
+    found = [
+        path
+        for path in case.glob("[0-9]*")
+        if path.is_dir() and path.name not in ("0", "0.orig")
+    ]
+    return sorted(found, key=lambda path: float(path.name))
+
+
+def complete(time: Path) -> bool:
+    """Whether a time was written to its end."""
+    return (time / "uniform" / "complete").is_file()
+
+
+def kill_test(folder: Path, kills: int, rng: random.Random) -> list[Kill]:
+    """Kill as many runs, every other one at a random moment, the others while
+    they write a time, and continue each."""
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
     reference = folder / "alone"
     start = time.monotonic()
     specimens.run_case(*PRESS, "-out", reference)
     whole = time.monotonic() - start
+    total = len(written(reference))
     found = []
     for number in range(kills):
         case = folder / f"killed{number}"
@@ -228,16 +253,21 @@ def kill_test(folder: Path, kills: int, rng: random.Random) -> list:
             stderr=subprocess.DEVNULL,
             start_new_session=True,
         )
-        times = rng.randint(3, 40)
-        patience = time.monotonic() + rng.uniform(0.4, 0.9) * whole
-        while time.monotonic() < patience and process.poll() is None:
-            if number % 2 and len(list(case.glob("0.*"))) >= times:
-                break
-            time.sleep(0.0005)
+        if number % 2:
+            least = rng.randint(1, total - 1)
+            while process.poll() is None:
+                times = written(case)
+                if len(times) >= least and not complete(times[-1]):
+                    break
+        else:
+            time.sleep(rng.uniform(0.3, 0.9) * whole)
+        if process.poll() is not None:
+            raise RuntimeError(f"{case} ended before it was killed")
         os.killpg(process.pid, signal.SIGKILL)
         process.wait()
-        done = len(list(case.glob("0.*"))) + len(list(case.glob("[1-9]*")))
-        print(f"  killed with {done} times on the disk", flush=True)
+        times = written(case)
+        writing = bool(times) and not complete(times[-1])
         specimens.run_case(PRESS[0], "-continue", "-out", case)
-        found.append(difference(case, reference))
+        found.append(Kill(len(times), writing, difference(case, reference)))
+        print(f"  {found[-1]}", flush=True)
     return found

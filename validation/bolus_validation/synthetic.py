@@ -55,10 +55,40 @@ def run(case: Path, *command: str, ok: bool = True) -> str:
     return output
 
 
+def run_parallel(case: Path, *command: str, ranks: int = 2) -> str:
+    """Cut a case into slices along x, and run a command on them."""
+    write_file(
+        case / "system" / "decomposeParDict",
+        f"numberOfSubdomains {ranks};\nmethod simple;\n"
+        f"simpleCoeffs {{ n ({ranks} 1 1); delta 0.001; }}\n",
+    )
+    run(case, "decomposePar")
+    return run(
+        case,
+        *("mpirun", "--oversubscribe", "-np", str(ranks)),
+        *(*command, "-parallel"),
+    )
+
+
 def write_file(path: Path, text: str, cls: str = "dictionary") -> None:
     """Write a file of OpenFOAM below its header."""
     path.parent.mkdir(parents=True, exist_ok=True)
     path.write_text(_HEADER.format(cls=cls, name=path.name) + text)
+
+
+def write_blocks(case: Path, vertices: str, blocks: str, patches: dict) -> None:
+    """Make the mesh of these blocks; patches {name: (type, its faces)}, all in
+    the words of blockMeshDict."""
+    write_file(
+        case / "system" / "blockMeshDict",
+        f"vertices (\n{vertices});\nblocks (\n{blocks});\nboundary (\n"
+        + "".join(
+            f"{name} {{ type {kind}; faces ({faces}); }}\n"
+            for name, (kind, faces) in patches.items()
+        )
+        + ");\n",
+    )
+    run(case, "blockMesh")
 
 
 def _block_mesh(case: Path, vertices, block, counts, patches) -> Mesh:

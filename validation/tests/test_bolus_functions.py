@@ -12,6 +12,7 @@ from bolus_validation.synthetic import (
     HALF_ANGLE,
     laplacian_case,
     run,
+    run_parallel,
     sphere_fraction,
     wedge_mesh,
     write_control,
@@ -31,16 +32,9 @@ def post_process(case, kind: str, fields: str, entries: str = "", np=1) -> dict:
     write_control(case, startFrom="startTime", functions=functions)
     command = ("postProcess", "-fields", f"({fields})")
     if np > 1:
-        (case / "system" / "decomposeParDict").write_text(
-            "FoamFile { version 2.0; format ascii; class dictionary;"
-            " object decomposeParDict; }\n"
-            f"numberOfSubdomains {np};\nmethod simple;\n"
-            f"simpleCoeffs {{ n ({np} 1 1); delta 0.001; }}\n"
-        )
-        run(case, "decomposePar")
-        command = ("mpirun", "--oversubscribe", "-np", str(np), *command)
-        command += ("-parallel",)
-    run(case, *command)
+        run_parallel(case, *command, ranks=np)
+    else:
+        run(case, *command)
     return {k: v[-1] for k, v in read_table(case, kind).columns.items()}
 
 

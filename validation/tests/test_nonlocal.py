@@ -2,13 +2,11 @@
 # Copyright (C) 2026 the bolusFoam developers
 """Damage by a plastic strain that is averaged over a length."""
 
-import subprocess
-
 import numpy as np
 import pytest
 from bolus_validation.fields import Case, FoamFileError
 from bolus_validation.specimens import SLIDING, box, solve
-from bolus_validation.synthetic import run, write_field
+from bolus_validation.synthetic import run, run_parallel, write_field
 
 CELL = 1e-4
 CELLS = 200
@@ -40,18 +38,7 @@ def column(case, strain, broken=None, length=LENGTH, np_=1):
     if np_ == 1:
         solve(case)
     else:
-        (case / "system" / "decomposeParDict").write_text(
-            "FoamFile { version 2.0; format ascii; class dictionary;"
-            " object decomposeParDict; }\n"
-            f"numberOfSubdomains {np_};\nmethod simple;\n"
-            f"simpleCoeffs {{ n ({np_} 1 1); delta 0.001; }}\n"
-        )
-        run(case, "decomposePar")
-        run(
-            case,
-            *("mpirun", "--oversubscribe", "-np", str(np_)),
-            *("bolusFoam", "-parallel"),
-        )
+        run_parallel(case, "bolusFoam", ranks=np_)
         run(case, "reconstructPar")
     results = Case(case)
     return (
@@ -67,12 +54,13 @@ def peak():
 
 @pytest.mark.parametrize("ranks", [1, 2])
 def test_a_peak_spreads_as_the_exact_answer(tmp_path, ranks):
-    # exp(-|x|/l)/(2 l), of a source CELL wide; found: 0.0009 of its largest
+    # exp(-|x|/l)/(2 l), of a source CELL wide; found: 0.0012 of its largest.
+    # Three times that catches a length that is off by half a percent
     x, average = column(tmp_path, peak(), np_=ranks)
     exact = CELL / (2 * LENGTH) * np.exp(-abs(x - x[CELLS // 2]) / LENGTH)
     # The ends are ten lengths off
-    assert np.max(abs(average - exact)) < 0.02 * exact.max()
-    # Nothing is lost
+    assert np.max(abs(average - exact)) < 0.004 * exact.max()
+    # Nothing is lost, but what the linear solver leaves (1.6e-6)
     assert average.sum() == pytest.approx(1, rel=1e-5)
 
 
@@ -97,8 +85,5 @@ def test_without_a_length_there_is_no_such_field(tmp_path):
 
 
 def test_a_negative_length_is_refused(tmp_path):
-    with pytest.raises(
-        (AssertionError, subprocess.CalledProcessError),
-        match="nonlocalLength",
-    ):
+    with pytest.raises(AssertionError, match="nonlocalLength"):
         column(tmp_path, peak(), length=-1)

@@ -8,7 +8,7 @@ import random
 import pytest
 from bolus_validation import robustness as rough
 from bolus_validation.robustness_cases import BASES, kill_test
-from bolus_validation.specimens import prepare_compression
+from bolus_validation.specimens import prepare_compression, replace
 from bolus_validation.synthetic import run
 
 
@@ -30,8 +30,10 @@ def test_a_spoilt_law_ends_in_a_clear_error_or_a_right_run(tmp_path, law):
     [
         (None, "", "-1", "hung"),
         (139, "Segmentation fault", "-1", "crashed"),
-        (1, "--> FOAM FATAL ERROR: bad size", "-1", "unclear"),
-        (1, "--> FOAM FATAL ERROR: nu is -1", "-1", "error"),
+        (1, "--> FOAM FATAL ERROR:\nbad size of numbers", "-1", "unclear"),
+        (1, "--> FOAM FATAL ERROR: nu\nbad size", "-1", "unclear"),
+        (1, "--> FOAM FATAL ERROR:\nEntry nu is -1", "-1", "error"),
+        (1, "--> FOAM FATAL ERROR:\nno convergence", "-1", "gaveUp"),
         (0, "End", "banana", "swallowed"),
         (0, "force nan", "-1", "swallowed"),
         (0, "End", "1e30", "ran"),
@@ -43,8 +45,31 @@ def test_faults_are_told_from_right_endings(status, output, text, verdict):
 
 
 def test_killed_runs_continue_to_the_same_answer(tmp_path):
-    # The second one is killed while it writes a time
-    assert max(kill_test(tmp_path / "kills", 2, random.Random(1))) < 1e-5
+    kills = kill_test(tmp_path / "kills", 2, random.Random(1))
+    # Restarts agree within what Newton's tolerance of 1e-6 leaves
+    assert max(kill.difference for kill in kills) < 1e-5
+    assert kills[1].writing
+
+
+def test_function_object_that_cannot_be_read_stops_the_run(case):
+    replace(
+        case / "system" / "controlDict",
+        r"type\s+externalWork;",
+        "type externalwork;",
+    )
+    output = run(case, "bolusFoam", ok=False)
+    message = output[output.index("FOAM FATAL") :]
+    assert "externalWork" in message and "could not be read" in message
+    assert "\nt " not in output
+
+
+def test_function_object_that_is_switched_off_does_not(case):
+    replace(
+        case / "system" / "controlDict",
+        r"type\s+externalWork;",
+        "type externalwork; enabled no;",
+    )
+    run(case, "bolusFoam")
 
 
 @pytest.fixture

@@ -54,6 +54,28 @@ static void giveUp(
 }
 
 
+//- OpenFOAM goes on without a function object that it cannot read: hours later
+//  its results would be missing
+static void requireFunctionObjects(const Time& runTime)
+{
+    const functionObjectList& made = runTime.functionObjects();
+    if (!made.status()) return; // -noFunctionObjects
+
+    for (const entry& e : runTime.controlDict().subOrEmptyDict("functions"))
+    {
+        if (!e.isDict() || !e.dict().lookupOrDefault("enabled", true)) continue;
+        if (made.findObjectID(e.keyword()) < 0)
+        {
+            FatalIOErrorInFunction(e.dict())
+                << "Entry '" << e.keyword() << "' of functions: this function"
+                << " object could not be read, for the reason in the warning"
+                << " above; valid are a right one, or none (enabled no)"
+                << exit(FatalIOError);
+        }
+    }
+}
+
+
 int main(int argc, char* argv[])
 {
     argList::addNote(
@@ -119,6 +141,11 @@ int main(int argc, char* argv[])
 
     while (runTime.run())
     {
+        // OpenFOAM has just read them
+        if (runTime.timeIndex() == runTime.startTimeIndex())
+        {
+            requireFunctionObjects(runTime);
+        }
         written.complete();
         fields.store();
         control.start();

@@ -36,8 +36,9 @@ Foam::writtenTime::writtenTime(Time& time) :
         FatalErrorInFunction
             << "time " << time.timeName() << " s in " << folder
             << " is not complete (no uniform/complete): the run that wrote it"
-            << " was stopped meanwhile. Remove that folder to start from the"
-            << " time before; -continue does so" << exit(FatalError);
+            << " was stopped meanwhile. Put that folder aside to start from"
+            << " the time before, as ./Allrun run -continue does"
+            << exit(FatalError);
     }
 }
 

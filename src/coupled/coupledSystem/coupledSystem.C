@@ -237,7 +237,10 @@ Foam::coupledSystem::coupledSystem(
     const entryReader::interval& nonNegative = entryReader::nonNegative;
 
     tolerance_ = read.number(
-        "tolerance", "rms of the scaled residuals [-]", positive, 1e-6
+        "tolerance",
+        "rms of the scaled residuals [-]",
+        {0, false, 1e-2, true},
+        1e-6
     );
     maxIterations_ = label(read.number(
         "maxIterations", "of Newton's method", {1, true, 1e5, true}, 60
@@ -257,7 +260,10 @@ Foam::coupledSystem::coupledSystem(
     );
     const entryReader::interval fraction = {0, true, 1, true};
     interfaceJump_ = read.number(
-        "interfaceJump", "of alpha at an interface [-]", positive, 0.2
+        "interfaceJump",
+        "of alpha at an interface [-]",
+        {0, false, 1, true},
+        0.2
     );
     leastRoom_ = read.number(
         "leastRoom", "part of a void that may close [-]", fraction, 0.05

@@ -318,10 +318,13 @@ Foam::historyTransport::report Foam::historyTransport::advance(
 
     report result;
     courant(phiRel, deltaT, result.courant, result.bulkCourant);
-    result.subSteps = max(label(std::ceil(result.courant / maxCourant_)), 1);
-    result.tooFast = result.subSteps > maxSubSteps_;
+    // Compared as a number: it may be beyond what a label holds
+    const scalar needed = std::ceil(result.courant / maxCourant_);
+    result.tooFast = !(needed <= maxSubSteps_);
+    result.subSteps = 0;
     result.alphaMax = result.spilled = 0;
     if (result.tooFast) return result;
+    result.subSteps = max(label(needed), 1);
     const scalar dt = deltaT / result.subSteps;
 
     const label nCells = mesh_.nCells();

@@ -145,6 +145,19 @@ Foam::functionObjects::retainedMass::retainedMass(
 {
     requireEveryStep(dict);
 
+    if (dict.found("throat"))
+    {
+        const scalarField along(mesh_.points() & axis_);
+        const scalar low = gMin(along), high = gMax(along);
+        if (!(throat_ >= low && throat_ <= high))
+        {
+            FatalIOErrorInFunction(dict)
+                << "Entry 'throat' is " << throat_
+                << " m; valid are places in the mesh, from " << low << " m to "
+                << high << " m along its axis" << exit(FatalIOError);
+        }
+    }
+
     if (dict.found("closedBetween"))
     {
         const scalarList times(dict.get<scalarList>("closedBetween"));

@@ -151,6 +151,14 @@ void Foam::antralWaves::readFades(const dictionary& dict)
             waveDict, "fadeBy", placeTypeNames, byTravel
         );
 
+        if (!(f.from >= start_))
+        {
+            FatalIOErrorInFunction(waveDict)
+                << "Entry 'from' is " << f.from
+                << " m; it must be at least where the waves start, " << start_
+                << " m" << exit(FatalIOError);
+        }
+
         if (!(f.to > f.from))
         {
             FatalIOErrorInFunction(waveDict)

@@ -122,6 +122,26 @@ void Foam::lumenWall::checkCovers(const scalar xMin, const scalar xMax) const
             << " m to " << neededEnd << " m" << exit(FatalIOError);
     }
 
+    const auto requireInProfile = [&](const dictionary& dict, const word& name)
+    {
+        const scalar x = dict.get<scalar>(name);
+        if (!(x >= profile_.xMin() && x <= profile_.xMax()))
+        {
+            FatalIOErrorInFunction(dict)
+                << "Entry '" << name << "' is " << x
+                << " m; valid are places in the table 'profile.radius', from "
+                << profile_.xMin() << " m to " << profile_.xMax() << " m"
+                << exit(FatalIOError);
+        }
+    };
+    if (waves_.size()) requireInProfile(dict_.subDict("waves"), "start");
+    if (hasSphincter())
+    {
+        const dictionary& trigger =
+            dict_.subDict("sphincter").subDict("trigger");
+        if (trigger.found("position")) requireInProfile(trigger, "position");
+    }
+
     // As fine as any mesh needs, and cheap
     const label nSamples = 1000;
 

@@ -94,6 +94,19 @@ void Foam::entryReader::require(const word& key, const string& meaning)
 }
 
 
+void Foam::entryReader::requireList(const word& key, const string& meaning)
+{
+    require(key, meaning);
+    const token first(dict_.lookup(key));
+    if (!first.isPunctuation() && !(first.isLabel() && first.labelToken() > 0))
+    {
+        FatalIOErrorInFunction(dict_)
+            << "Entry " << key << " begins with " << first.info()
+            << "; valid is a " << meaning.c_str() << exit(FatalIOError);
+    }
+}
+
+
 Foam::scalar Foam::entryReader::number(
     const word& key,
     const string& meaning,

@@ -29,6 +29,7 @@ from bolus_validation.synthetic import (  # noqa: E402
     run as execute,
 )
 from bolus_validation.synthetic import (
+    write_blocks,
     write_field,
     write_file,
     write_motion_fields,
@@ -99,16 +100,7 @@ def push_through(case: Path, mu: float, cell: float, step: float):
         "outlet": ["patch", "(3 7 11 3)"],
         "axis": ["empty", axis],
     }
-    write_file(
-        case / "system" / "blockMeshDict",
-        f"vertices (\n{vertices});\nblocks (\n{blocks});\nboundary (\n"
-        + "".join(
-            f"{name} {{ type {kind}; faces ({faces}); }}\n"
-            for name, (kind, faces) in patches.items()
-        )
-        + ");\n",
-    )
-    execute(case, "blockMesh")
+    write_blocks(case, vertices, blocks, patches)
     still = "type fixedValue; value uniform (0 0 0);"
     moving = (
         "type uniformFixedValue; uniformValue table "

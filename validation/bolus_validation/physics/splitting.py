@@ -28,12 +28,9 @@ from bolus_validation.specimens import (  # noqa: E402
     solve,
 )
 from bolus_validation.studies import Findings, study  # noqa: E402
-from bolus_validation.synthetic import (  # noqa: E402
-    run as execute,
-)
 from bolus_validation.synthetic import (
+    write_blocks,
     write_field,
-    write_file,
     write_motion_fields,
 )
 
@@ -317,16 +314,7 @@ def punched(
         "punchSide": ("wall", side(1, 1, 1, 2)),
         "flat": ("empty", flats),
     }
-    write_file(
-        case / "system" / "blockMeshDict",
-        f"vertices (\n{vertices});\nblocks (\n{blocks});\nboundary (\n"
-        + "".join(
-            f"{name} {{ type {kind}; faces ({faces}); }}\n"
-            for name, (kind, faces) in patches.items()
-        )
-        + ");\n",
-    )
-    execute(case, "blockMesh")
+    write_blocks(case, vertices, blocks, patches)
     rows = "".join(f"({t:.12g} ({x} {y} {z}))" for t, (x, y, z) in down)
     conditions = {
         "wall": (

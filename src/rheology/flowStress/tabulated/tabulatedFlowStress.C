@@ -45,7 +45,7 @@ Foam::flowStresses::tabulatedFlowStress::tabulatedFlowStress(
     entryReader read(dict);
     read.has("type");
 
-    read.require(
+    read.requireList(
         "table",
         "list of (plastic strain rate [1/s], flow stress [Pa]) from rate 0 on"
     );
