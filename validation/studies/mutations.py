@@ -48,6 +48,14 @@ class Mutation:
 
 MUTATIONS = (
     Mutation(
+        "bolus on the wrong side of the interface in transport",
+        "src/coupled/planarInterface/planarInterface.H",
+        "along > 0 ? d",
+        "along < 0 ? d",
+        COUPLED,
+        "test_physics.py -k rotation",
+    ),
+    Mutation(
         "radial return with 2 G for 3 G",
         "src/rheology/radialReturn/radialReturn.C",
         "slopeElastic = 3 * G_ * dt",

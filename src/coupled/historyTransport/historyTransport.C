@@ -2,6 +2,7 @@
 // Copyright (C) 2026 the bolusFoam developers
 
 #include "historyTransport.H"
+#include "planarInterface.H"
 #include "entryReader.H"
 #include "labelIOList.H"
 #include "syncTools.H"
@@ -102,6 +103,12 @@ Foam::historyTransport::historyTransport(
         "alpha of cells between which memory is interpolated [-]",
         {0, true, 1, false},
         0.05
+    );
+    interfaceJump_ = read.number(
+        "interfaceJump",
+        "of alpha at an interface [-]",
+        {0, false, 1, true},
+        0.2
     );
     read.rejectOthers();
 }
@@ -306,6 +313,75 @@ Foam::scalar Foam::historyTransport::spill(
 }
 
 
+void Foam::historyTransport::setSwept(
+    const scalarField& alpha,
+    const scalarField& alphaNei,
+    const scalarField& flux,
+    const vectorField& delta,
+    const vectorField& g,
+    const scalarField& dtByV,
+    scalarField& swept
+) const
+{
+    const label nInternal = mesh_.nInternalFaces();
+
+    auto extent = [&](const label c, const vector& dir)
+    {
+        scalar low = GREAT;
+        scalar high = -GREAT;
+        for (const label p : mesh_.cellPoints()[c])
+        {
+            const scalar x = mesh_.points()[p] & dir;
+            low = min(low, x);
+            high = max(high, x);
+        }
+        return high - low;
+    };
+
+    // By the processor of the donor cell, which tells the other one
+    forAll(flux, f)
+    {
+        const bool internal = f < nInternal;
+        const bool forward = flux[f] > 0;
+        if (!internal && !forward) continue;
+        const label P = mesh_.faceOwner()[f];
+        const label D = forward ? P : mesh_.faceNeighbour()[f];
+        swept[f] = alpha[D];
+        if (alpha[D] < 1e-9 || alpha[D] > 1 - 1e-9 || flux[f] == 0) continue;
+
+        const vector e =
+            (forward ? 1 : -1) / max(mag(delta[f]), VSMALL) * delta[f];
+        const vector tangential = g[D] - (g[D] & e) * e;
+        const scalar steep = mag(tangential);
+        const scalar along = (g[D] & e) * extent(D, e);
+        const scalar across =
+            steep > VSMALL ? steep * extent(D, tangential / steep) : 0;
+        swept[f] = planarInterface::swept(
+            alpha[D], along, across, min(mag(flux[f]) * dtByV[D], scalar(1))
+        );
+
+        // Where alpha varies but little there is no interface, and nothing
+        // that may become steeper than it is
+        const scalar aA = !internal ? alphaNei[f - nInternal]
+            : forward               ? alpha[mesh_.faceNeighbour()[f]]
+                                    : alpha[P];
+        const scalar within =
+            min(max(swept[f], min(alpha[D], aA)), max(alpha[D], aA));
+        const scalar sharp =
+            min((mag(along) + across) / interfaceJump_, scalar(1));
+        swept[f] = sharp * swept[f] + (1 - sharp) * within;
+    }
+
+    SubList<scalar> here(swept, mesh_.nFaces() - nInternal, nInternal);
+    scalarField there(here);
+    syncTools::swapBoundaryFaceList(mesh_, there);
+    forAll(there, b)
+    {
+        if (flux[nInternal + b] <= 0) here[b] = there[b];
+    }
+}
+
+
 Foam::historyTransport::report Foam::historyTransport::advance(
     const surfaceScalarField& phi,
     const scalar deltaT,
@@ -368,10 +444,10 @@ Foam::historyTransport::report Foam::historyTransport::advance(
     scalarField total(nFaces, Zero);
 
     scalarField V(V0);
-    scalarField low(nFaces), anti(nFaces), F(nFaces);
+    scalarField swept(nFaces), low(nFaces), anti(nFaces), F(nFaces);
     scalarField alphaLow(nCells), alphaLeft(nCells), Pp(nCells), Pm(nCells),
         Rp(nCells);
-    scalarField Rm(nCells), out(nCells);
+    scalarField Rm(nCells);
     vectorField g(nCells);
 
     const boolList all(nFaces, true);
@@ -385,68 +461,19 @@ Foam::historyTransport::report Foam::historyTransport::advance(
         const scalarField alphaNei(neighbour(alpha));
         const scalarField pNei(neighbour(q_[0]));
         gradient(alpha, alphaNei, all, g);
-        const scalarField gx(neighbour(g.component(0)));
-        const scalarField gy(neighbour(g.component(1)));
-        const scalarField gz(neighbour(g.component(2)));
 
-        out = 0;
+        setSwept(alpha, alphaNei, flux, delta, g, dt / Vold, swept);
+
+        // Bolus over the faces, by upwinding and beyond it
         forAll(flux, f)
         {
-            if (flux[f] > 0)
-                out[own[f]] += flux[f];
-            else if (f < nInternal)
-                out[mesh_.neighbour()[f]] -= flux[f];
-        }
-        out *= dt / Vold;
-        const scalarField outNei(neighbour(out));
-
-        // Bolus fraction at the faces
-        forAll(flux, f)
-        {
-            const scalar phif = flux[f];
-            const bool internal = f < nInternal;
             const label P = own[f];
-            if (phif == 0 || (!internal && !coupled[f]))
-            {
-                // Bolus leaves through open boundaries, void comes in
-                low[f] = phif > 0 ? phif * alpha[P] : 0;
-                anti[f] = 0;
-                continue;
-            }
-
-            const label b = f - nInternal;
-            const label N = internal ? mesh_.neighbour()[f] : -1;
-            const scalar aN = internal ? alpha[N] : alphaNei[b];
-            const bool forward = phif > 0;
-            const scalar aD = forward ? alpha[P] : aN;
-            const scalar aA = forward ? aN : alpha[P];
-            low[f] = phif * aD;
-            anti[f] = 0;
-
-            const vector gD = forward ? g[P]
-                : internal            ? g[N]
-                                      : vector(gx[b], gy[b], gz[b]);
-            const vector d = forward ? delta[f] : -delta[f];
-            const scalar aU = min(max(aA - 2 * (gD & d), scalar(0)), scalar(1));
-            const scalar range = aA - aU;
-            if (mag(range) < 1e-9) continue;
-            const scalar aT = (aD - aU) / range;
-            if (aT <= 0 || aT >= 1) continue;
-
-            const scalar Co =
-                max(forward        ? out[P]
-                        : internal ? out[N]
-                                   : outNei[b],
-                    SMALL);
-            const scalar hyper = min(aT / Co, scalar(1));
-            const scalar quick =
-                min((8 * Co * aT + (1 - Co) * (6 * aT + 3)) / 8, hyper);
-            const scalar magG = mag(gD) * mag(d);
-            const scalar along =
-                magG > VSMALL ? min(sqr((gD & d) / magG), scalar(1)) : 1;
-            scalar aF = aU + (along * hyper + (1 - along) * quick) * range;
-            aF = min(max(aF, min(aD, aA)), max(aD, aA));
-            anti[f] = phif * (aF - aD);
+            const scalar aN = f < nInternal ? alpha[mesh_.neighbour()[f]]
+                : coupled[f]                ? alphaNei[f - nInternal]
+                                            : 0; // void comes in
+            low[f] = flux[f] * (flux[f] > 0 ? alpha[P] : aN);
+            anti[f] =
+                f < nInternal || coupled[f] ? flux[f] * swept[f] - low[f] : 0;
         }
 
         // Limit what goes beyond upwinding. What leaves a cell may not count
