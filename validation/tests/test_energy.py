@@ -312,6 +312,9 @@ def test_a_break_beside_sound_bolus_sets_its_energy_free_too(folder):
     mesh = Case(case).mesh(0)
     middle = np.abs(mesh.cell_centres[:, 0] - 0.010) < 0.001
     write_field(case, mesh, 0, "epsilonPEq", np.where(middle, 0.3, 0.0))
+    # At rest after the break: what Newton's method leaves would add up
+    fv = case / "system" / "fvSolution"
+    fv.write_text(fv.read_text().replace("bolus {}", "bolus {tolerance 1e-9;}"))
     solve(case)
     table = balance(case)
     # The first step loads it, and loses as much as it stores (backward Euler

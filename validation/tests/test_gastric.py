@@ -311,7 +311,7 @@ def test_rejected_steps_leave_books_wall_and_times_in_order(prepared, tmp_path):
     shutil.copytree(prepared, case)
     # Few iterations, each second step or so to a time of writing: what fails
     # is often a step that was to be written
-    set_iterations(case, 3, 7)
+    set_iterations(case, 4, 7)
     said = solver(case)
     rejected = [
         (float(t), float(dt))

@@ -360,15 +360,17 @@ void Foam::historyTransport::setSwept(
             alpha[D], along, across, min(mag(flux[f]) * dtByV[D], scalar(1))
         );
 
-        // Where alpha varies but little there is no interface, and nothing
-        // that may become steeper than it is
+        // Where alpha varies but little there is no interface, and broken
+        // bolus is a heap of crumbs, not a body with a surface: there nothing
+        // may become steeper than it is
         const scalar aA = !internal ? alphaNei[f - nInternal]
             : forward               ? alpha[mesh_.faceNeighbour()[f]]
                                     : alpha[P];
         const scalar within =
             min(max(swept[f], min(alpha[D], aA)), max(alpha[D], aA));
+        const scalar sound = min(max(1 - q_[2][D], scalar(0)), scalar(1));
         const scalar sharp =
-            min((mag(along) + across) / interfaceJump_, scalar(1));
+            sound * min((mag(along) + across) / interfaceJump_, scalar(1));
         swept[f] = sharp * swept[f] + (1 - sharp) * within;
     }
 
