@@ -130,8 +130,8 @@ MUTATIONS = (
     Mutation(
         "broken bolus breaks its neighbours",
         "applications/solvers/bolusFoam/bolusFields.C",
-        "soundStrain[c] / (1 - D[c])",
-        "epsilonPEq[c]",
+        "strain(soundStrain / max(1 - D, SMALL))",
+        "strain(epsilonPEq)",
         SOLVER,
         "test_physics_contact.py -k barInTension",
     ),

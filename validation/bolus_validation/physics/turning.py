@@ -317,7 +317,8 @@ def _disc_meshes(found, folder, quick, name, length, motion) -> None:
                 f"disc: {label}",
                 [2 * RADIUS / n for n in meshes],
                 [change[i] for change in changes],
-                least=1.5,
+                # With an interface: about 1 (issue 3), as h to 1.5 away from it
+                least=1.0,
             )
     times = sorted(fields.times)
 
