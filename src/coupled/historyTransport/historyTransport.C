@@ -446,7 +446,7 @@ Foam::historyTransport::report Foam::historyTransport::advance(
     scalarField total(nFaces, Zero);
 
     scalarField V(V0);
-    scalarField swept(nFaces), low(nFaces), anti(nFaces), F(nFaces);
+    scalarField swept(nFaces, Zero), low(nFaces), anti(nFaces), F(nFaces);
     scalarField alphaLow(nCells), alphaLeft(nCells), Pp(nCells), Pm(nCells),
         Rp(nCells);
     scalarField Rm(nCells);

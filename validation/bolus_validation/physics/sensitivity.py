@@ -60,6 +60,7 @@ INPUTS = {
     "tolerance": (FLOW + "tolerance", "-"),
     "squeeze": (MOVE + "squeeze", "-"),
     "memoryAbove": (MOVE + "memoryAbove", "-"),
+    "transportJump": (MOVE + "interfaceJump", "-"),
     "transportCourant": (MOVE + "maxCourant", "-"),
     "maxCourant": ("maxCourant", "-"),
     "maxDeltaT": ("maxDeltaT", "s"),

@@ -317,7 +317,7 @@ def _disc_meshes(found, folder, quick, name, length, motion) -> None:
                 f"disc: {label}",
                 [2 * RADIUS / n for n in meshes],
                 [change[i] for change in changes],
-                # With an interface: about 1 (issue 3), as h to 1.5 away from it
+                # The disc has an interface; without one 1.5 would be due
                 least=1.0,
             )
     times = sorted(fields.times)
