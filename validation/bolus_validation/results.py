@@ -179,6 +179,8 @@ def run_numbers(path: Path) -> dict:
         )
         # The solver's running count, kept over restarts
         found["rejectedSteps"] = value(int(steps["rejected"][-1]), "-")
+        if "lagged" in steps.columns:
+            found["laggedSteps"] = value(int(steps["lagged"][-1]), "-")
         found["maxCourant"] = value(steps["courant"].max(), "-")
         found["maxMassError"] = value(np.abs(steps["massError"]).max(), "-")
         found["alphaMin"] = value(steps["alphaMin"].min(), "-")

@@ -104,6 +104,22 @@ MUTATIONS = (
         "test_physics_contact.py -k noFracture",
     ),
     Mutation(
+        "damage with the first step of tension",
+        "src/rheology/damageModel/triaxialOnsetDamage/triaxialOnsetDamage.H",
+        "&& tensileStrain >= tensileStrain_;",
+        "&& tensileStrain >= 0;",
+        RHEOLOGY,
+        "test_rheology.py -k waits_for_plastic_strain",
+    ),
+    Mutation(
+        "lagged friction with twice the pressure",
+        CELL,
+        "k.pn = lagged_ ? state_.p[c] -",
+        "k.pn = lagged_ ? 2 * state_.p[c] -",
+        COUPLED,
+        "test_solver_contact.py -k lagged_friction",
+    ),
+    Mutation(
         "damage at twice the plastic strain",
         "src/rheology/damageModel/triaxialOnsetDamage/triaxialOnsetDamage.H",
         "epsP > epsilonPEq0_ &&",

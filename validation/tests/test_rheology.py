@@ -378,6 +378,45 @@ def test_damage_needs_both_thresholds(tmp_path, override):
     assert pull["axialStress"][-1] > 9000
 
 
+@pytest.mark.parametrize("needed", [0, 0.1, 0.4])
+def test_damage_waits_for_plastic_strain_under_tension(tmp_path, needed):
+    # Squeezed beyond the threshold, then pulled: 0 breaks with the first
+    # tension above eta0, the others when so much has come on top
+    load = run(
+        tmp_path,
+        "viscoplasticDamage",
+        """
+        press { mode uniaxial; rate 0.1; strain -0.6; }
+        pull { mode uniaxial; rate 0.1; strain 0.3; }
+        """,
+        extra="rows 500;",
+        override=f"damage {{ tensileStrain {needed}; }}",
+    )
+    assert np.all(load["press"]["D"] == 0)
+    pull = load["pull"]
+    # The row before: in that of the break the elastic strain, too, is lost
+    last = int(np.argmax(pull["D"])) - 1
+    begin = int(np.argmax(pull["triaxiality"] > 0.2)) - 1
+    came = pull["epsilonPEq"][last] - pull["epsilonPEq"][begin]
+    assert came == pytest.approx(needed, abs=0.004)
+    assert needed > 0 or last == begin
+
+
+@pytest.mark.parametrize("needed", [0.1, 0.25, 0.4])
+def test_a_bar_in_tension_breaks_at_the_larger_strain(tmp_path, needed):
+    pull = run(
+        tmp_path,
+        "viscoplasticDamage",
+        "pull { mode uniaxial; rate 0.1; strain 0.8; }",
+        extra="rows 800;",
+        override=f"damage {{ tensileStrain {needed}; }}",
+    )["pull"]
+    last = int(np.argmax(pull["D"])) - 1
+    assert pull["epsilonPEq"][last] == pytest.approx(
+        max(needed, 0.25), abs=0.002
+    )
+
+
 def test_damaged_material_carries_pressure_but_no_tension(tmp_path):
     table = run(
         tmp_path,

@@ -11,6 +11,7 @@ from bolus_validation.specimens import (
     box,
     compression,
     ramp,
+    replace,
     rub,
     solve,
 )
@@ -89,8 +90,8 @@ PRESS = 0.3
 SLIDE = 1.0
 
 
-def sliding(case, mu: float, shifted: str):
-    """Ratio of shear to normal force of the lower wall, and all forces."""
+def sliding(case, mu: float, shifted: str, solver: str = ""):
+    """Forces of the lower and the upper wall; solver: entries of bolus."""
 
     def push(t):
         return -0.03 * 0.005 * min(t / PRESS, 1)
@@ -121,6 +122,11 @@ def sliding(case, mu: float, shifted: str):
         block=((0.005, 0.015), 0.005),
         measured=("y0", "y1"),
     )
+    replace(
+        case / "system" / "fvSolution",
+        r"\nbolus \{\}",
+        f"\nbolus {{ {solver} }}",
+    )
     solve(case)
     return (
         read_table(case, "forceY0", "contactForce"),
@@ -144,6 +150,31 @@ def test_sliding_block_feels_mu_times_the_normal_force(folder, mu, shifted):
     # Before anything moves sidewards there is no shear on the whole
     still = lower.time < PRESS - 0.01
     assert np.max(abs(lower["axial"][still])) < 1e-4 * lower["normal"].max()
+
+
+def test_lagged_friction_is_told_and_has_the_pressure_of_the_start(folder):
+    # So few iterations that Newton's method fails: friction is then lagged.
+    # After the first steps the pressure hardly changes within one
+    case = folder / "lagged"
+    lower, upper = sliding(
+        case, 0.3, "upper", "maxIterations 3; lagFrictionBelow 1;"
+    )
+    steps = read_table(case, "solver", "steps")
+    assert steps["lagged"][-1] > 10
+    log = (case / "log.bolusFoam").read_text()
+    assert log.count("of this kind)") == steps["lagged"][-1]
+    late = lower.time > 0.6
+    ratio = lower["axial"][late] / lower["normal"][late]
+    assert ratio == pytest.approx(0.3, rel=0.01)
+    assert upper["axial"] == pytest.approx(-lower["axial"], abs=1e-5)
+
+
+def test_friction_is_not_lagged_in_longer_steps(folder):
+    case = folder / "not-lagged"
+    sliding(case, 0.3, "upper", "maxIterations 4; lagFrictionBelow 1e-5;")
+    steps = read_table(case, "solver", "steps")
+    assert steps["rejected"][-1] > 0
+    assert steps["lagged"][-1] == 0
 
 
 def test_without_friction_sliding_costs_nothing(folder):

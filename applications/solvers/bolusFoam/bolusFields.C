@@ -104,6 +104,13 @@ Foam::bolusFields::bolusFields(
             dimensionedScalar("e", dimless, -1.0)
         )
     ),
+    tensileStrain(
+        field<scalar>(
+            mesh,
+            "tensileStrain",
+            dimensionedScalar("e", dimless, 0.0)
+        )
+    ),
     theta(field<scalar>(mesh, "theta", dimensionedScalar("t", dimless, 1.0))),
     pStart(
         IOobject(
@@ -170,6 +177,7 @@ Foam::bolusFields::bolusFields(
         epsilonPEq,
         D,
         soundStrain,
+        tensileStrain,
         theta,
         pointU,
         elasticSlip,
@@ -208,7 +216,15 @@ template<class Operation>
 void Foam::bolusFields::forState(const Operation& op)
 {
     volScalarField* scalars[] = {
-        &alpha, &mass, &p, &epsilonPEq, &D, &soundStrain, &theta, &pStart
+        &alpha,
+        &mass,
+        &p,
+        &epsilonPEq,
+        &D,
+        &soundStrain,
+        &tensileStrain,
+        &theta,
+        &pStart
     };
     volVectorField* vectors[] = {&U, &elasticSlip};
     volSymmTensorField* tensors[] = {&deviator, &stress};
@@ -303,13 +319,17 @@ Foam::scalar Foam::bolusFields::damage(const scalar thinnest)
     {
         if (alpha[c] < thinnest || D[c] > 0.5) continue;
         const scalar q = elastoViscoPlastic::sigmaEq(deviator[c]);
-        if (q < SMALL || !law_.damage().onset(strain[c], -p[c] / q)) continue;
+        const scalar tensile = tensileStrain[c] / max(1 - D[c], SMALL);
+        if (q < SMALL || !law_.damage().onset(strain[c], tensile, -p[c] / q))
+            continue;
         D[c] = 1;
         soundStrain[c] = 0;
+        tensileStrain[c] = 0;
         volume += mass[c] * mesh_.V()[c];
     }
     D.correctBoundaryConditions();
     soundStrain.correctBoundaryConditions();
+    tensileStrain.correctBoundaryConditions();
     reduce(volume, sumOp<scalar>());
     return volume;
 }

@@ -29,6 +29,7 @@ Foam::progress::progress(
     initial_(books_.lookupOrDefault<scalar>("initial", fields.totalMass())),
     emptied_(books_.lookupOrDefault<scalar>("emptied", 0)),
     overfull_(books_.lookupOrDefault<label>("overfull", 0)),
+    lagged_(books_.lookupOrDefault<label>("lagged", 0)),
     spilled_(books_.lookupOrDefault<scalar>("spilled", 0)),
     alphaMin_(GREAT),
     alphaMax_(-GREAT),
@@ -53,8 +54,8 @@ Foam::progress::progress(
         file_.reset(new OFstream(dir / "steps.dat"));
         file_() << "# time [s]" << tab << "deltaT [s]" << tab
                 << "NewtonIterations [-]" << tab << "rejected [-]" << tab
-                << "courant [-]" << tab << "subSteps [-]" << tab
-                << "massError [-]" << tab << "alphaMin [-]" << tab
+                << "lagged [-]" << tab << "courant [-]" << tab << "subSteps [-]"
+                << tab << "massError [-]" << tab << "alphaMin [-]" << tab
                 << "alphaMax [-]" << tab << "cpuTime [s]" << endl;
     }
 }
@@ -84,6 +85,14 @@ void Foam::progress::step(
              << endl;
     }
 
+    if (solved.frictionLagged)
+    {
+        books_.set("lagged", ++lagged_);
+        Info << "t " << time_.value() << " s, dt " << time_.deltaTValue()
+             << " s: friction with the contact pressure of the step's start"
+             << " (step " << lagged_ << " of this kind)" << endl;
+    }
+
     massError_ = (fields_.totalMass() + emptied_ - initial_) / initial_;
     const scalar low = gMin(fields_.alpha.primitiveField());
     const scalar high = gMax(fields_.alpha.primitiveField());
@@ -94,9 +103,9 @@ void Foam::progress::step(
     {
         file_() << time_.value() << tab << time_.deltaTValue() << tab
                 << solved.iterations << tab << control_.rejected() << tab
-                << moved.courant << tab << moved.subSteps << tab << massError_
-                << tab << low << tab << high << tab << time_.elapsedCpuTime()
-                << endl;
+                << lagged_ << tab << moved.courant << tab << moved.subSteps
+                << tab << massError_ << tab << low << tab << high << tab
+                << time_.elapsedCpuTime() << endl;
     }
 
     // Not time_.run(), which would execute the function objects
@@ -141,6 +150,7 @@ void Foam::progress::summary() const
          << "    cores            " << Pstream::nProcs() << nl
          << "    steps            " << control_.steps() << nl
          << "    rejected steps   " << control_.rejected() << nl
+         << "    friction lagged  " << lagged_ << " steps" << nl
          << "    Newton iterations " << control_.iterations() << nl
          << "    mass error       " << massError_ << nl
          << "    overfull steps   " << overfull_ << " (alpha above 1.01)" << nl

@@ -77,7 +77,9 @@ Foam::materialSpecimen::materialSpecimen(
 ) :
     material_(bolusProperties),
     openingViscosity_(openingViscosity),
-    now_({0, tensor::zero, symmTensor::zero, 0, 0, 0, false, tensor::zero, 0})
+    now_(
+        {0, tensor::zero, symmTensor::zero, 0, 0, 0, 0, false, tensor::zero, 0}
+    )
 {}
 
 
@@ -190,10 +192,15 @@ Foam::materialSpecimen::state Foam::materialSpecimen::trial(
 
 void Foam::materialSpecimen::accept(const state& next)
 {
-    now_ = next;
+    const damageModel& damage = material_.damage();
+    const scalar eta = next.triaxiality();
+    const scalar strain = next.epsP - now_.epsP;
+    const scalar tensile =
+        now_.tensileStrain + (damage.tension(eta) ? strain : scalar(0));
 
-    now_.damaged =
-        now_.damaged || material_.damage().onset(now_.epsP, now_.triaxiality());
+    now_ = next;
+    now_.tensileStrain = tensile;
+    now_.damaged = now_.damaged || damage.onset(now_.epsP, tensile, eta);
 }
 
 

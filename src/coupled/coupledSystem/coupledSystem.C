@@ -228,6 +228,7 @@ Foam::coupledSystem::coupledSystem(
     space_(mesh_, kinds(state.U)),
     elasticSlip_(state.elasticSlip),
     deltaT_(1),
+    lagged_(false),
     secant_(true),
     q_(space_.nd() * space_.nNodes(), Zero),
     pCell_(mesh_.nCells(), Zero)
@@ -245,6 +246,12 @@ Foam::coupledSystem::coupledSystem(
     maxIterations_ = label(read.number(
         "maxIterations", "of Newton's method", {1, true, 1e5, true}, 60
     ));
+    lagFrictionBelow_ = read.number(
+        "lagFrictionBelow",
+        "longest step whose friction may be lagged [s]",
+        nonNegative,
+        1e-3
+    );
     hourglass_ =
         read.number("hourglass", "hourglass control [-]", nonNegative, 0.05);
     overfillTime_ = read.number(
@@ -364,8 +371,14 @@ void Foam::coupledSystem::accept(
         state_.theta[c] = bolus ? r.r.theta : 1;
         if (bolus)
         {
-            state_.soundStrain[c] +=
+            const scalar strain =
                 (1 - state_.D[c]) * (r.r.epsP - state_.epsilonPEq[c]);
+            state_.soundStrain[c] += strain;
+            const scalar q = elastoViscoPlastic::sigmaEq(r.r.s);
+            if (q > SMALL && law_.damage().tension(-pCell_[c] / q))
+            {
+                state_.tensileStrain[c] += strain;
+            }
             state_.epsilonPEq[c] = r.r.epsP;
         }
         state_.p[c] = pCell_[c];

@@ -129,7 +129,8 @@ bool Foam::coupledSystem::evaluateContact(
     if (space_.nd() == 2) k.n -= (k.n & space_.normal()) * space_.normal();
     k.n /= mag(k.n);
 
-    k.pn = pCell_[c] - (k.n & r.r.s & k.n);
+    k.pn = lagged_ ? state_.p[c] - (k.n & state_.deviator[c] & k.n)
+                   : pCell_[c] - (k.n & r.r.s & k.n);
     if (k.pn <= 0) return false;
 
     k.law = friction_[patchi];
@@ -264,6 +265,7 @@ void Foam::coupledSystem::assembleCell(
 
         scalar factor, dpn, dslip;
         k.law->factor(k.pn, slip, factor, dpn, dslip);
+        if (lagged_) dpn = 0;
 
         // From slip to stick the tangent throws the face far to the other
         // side; the secant leads there safely. The tangent is for faces that

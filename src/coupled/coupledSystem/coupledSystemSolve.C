@@ -327,6 +327,27 @@ PetscErrorCode Foam::coupledSystem::convergedFunction(
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
+SNESConvergedReason Foam::coupledSystem::newton()
+{
+    // The secant of friction (see assembleCell) may lead uphill; then the
+    // tangent takes over from there, and so on
+    SNESConvergedReason reason;
+    PetscInt iterations;
+    secant_ = true;
+    for (label attempt = 0; attempt < 4; ++attempt)
+    {
+        const trapsOff noTraps;
+        petscCheck(SNESSolve(snes_, nullptr, x_), "SNESSolve");
+        SNESGetConvergedReason(snes_, &reason);
+        SNESGetIterationNumber(snes_, &iterations);
+        report_.iterations += iterations;
+        if (reason != SNES_DIVERGED_LINE_SEARCH) break;
+        secant_ = !secant_;
+    }
+    return reason;
+}
+
+
 const Foam::coupledSystem::report& Foam::coupledSystem::solve(
     const scalar deltaT
 )
@@ -355,22 +376,19 @@ const Foam::coupledSystem::report& Foam::coupledSystem::solve(
 
     gather(x_);
     qLast_ = q_;
-    // The secant of friction (see assembleCell) may lead uphill; then the
-    // tangent takes over from there, and so on
-    SNESConvergedReason reason;
-    PetscInt iterations;
     report_.iterations = 0;
-    secant_ = true;
-    for (label attempt = 0; attempt < 4; ++attempt)
+    lagged_ = false;
+    SNESConvergedReason reason = newton();
+
+    // Where the threshold of a face falls faster than its load as it begins to
+    // slip, there is no equilibrium to be found: the thing snaps. A threshold
+    // that waits for the next step leaves one
+    if (reason < 0 && deltaT_ <= lagFrictionBelow_)
     {
-        const trapsOff noTraps;
-        petscCheck(SNESSolve(snes_, nullptr, x_), "SNESSolve");
-        SNESGetConvergedReason(snes_, &reason);
-        SNESGetIterationNumber(snes_, &iterations);
-        report_.iterations += iterations;
-        if (reason != SNES_DIVERGED_LINE_SEARCH) break;
-        secant_ = !secant_;
+        lagged_ = true;
+        reason = newton();
     }
+    report_.frictionLagged = lagged_;
     report_.converged = reason > 0;
     report_.reason = SNESConvergedReasons[reason];
     return report_;

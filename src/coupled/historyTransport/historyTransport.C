@@ -11,11 +11,12 @@
 
 void Foam::historyTransport::pack()
 {
-    q_.setSize(10 + (inertia_ ? 3 : 0));
+    q_.setSize(11 + (inertia_ ? 3 : 0));
     q_[0] = state_.p.primitiveField();
     q_[1] = state_.epsilonPEq.primitiveField();
     q_[2] = state_.D.primitiveField();
     q_[9] = state_.soundStrain.primitiveField();
+    q_[10] = state_.tensileStrain.primitiveField();
     for (direction d = 0; d < 6; ++d)
     {
         q_[3 + d] = state_.deviator.primitiveField().component(d);
@@ -24,7 +25,7 @@ void Foam::historyTransport::pack()
     {
         for (direction d = 0; d < 3; ++d)
         {
-            q_[10 + d] = state_.U.primitiveField().component(d);
+            q_[11 + d] = state_.U.primitiveField().component(d);
         }
     }
 }
@@ -36,6 +37,7 @@ void Foam::historyTransport::unpack()
     state_.epsilonPEq.primitiveFieldRef() = q_[1];
     state_.D.primitiveFieldRef() = q_[2];
     state_.soundStrain.primitiveFieldRef() = q_[9];
+    state_.tensileStrain.primitiveFieldRef() = q_[10];
     for (direction d = 0; d < 6; ++d)
     {
         state_.deviator.primitiveFieldRef().replace(d, q_[3 + d]);
@@ -44,13 +46,14 @@ void Foam::historyTransport::unpack()
     {
         for (direction d = 0; d < 3; ++d)
         {
-            state_.U.primitiveFieldRef().replace(d, q_[10 + d]);
+            state_.U.primitiveFieldRef().replace(d, q_[11 + d]);
         }
     }
     state_.p.correctBoundaryConditions();
     state_.epsilonPEq.correctBoundaryConditions();
     state_.D.correctBoundaryConditions();
     state_.soundStrain.correctBoundaryConditions();
+    state_.tensileStrain.correctBoundaryConditions();
     state_.deviator.correctBoundaryConditions();
 }
 

@@ -39,6 +39,12 @@ Foam::damageModels::triaxialOnsetDamage::triaxialOnsetDamage(
         {0, false, 1, true},
         1e-4
     );
+    tensileStrain_ = read.number(
+        "tensileStrain",
+        "plastic strain that has to come under tension [-]",
+        entryReader::nonNegative,
+        0
+    );
     nonlocalLength_ = read.number(
         "nonlocalLength",
         "length over which the plastic strain is averaged [m]",
