@@ -2,14 +2,10 @@
 # Copyright (C) 2026 the bolusFoam developers
 """Cutting: limit analysis, all speeds and laws, what the paper says in words.
 
-The runs are those of the tutorials, with settings. They are kept in
-run/validate/cutting/runs and taken again as long as solver and tutorials have
-not changed; a run that was stopped goes on. SI units.
+The runs are those of the tutorials, with settings: see cutting_runs. SI units.
 """
 
-import csv
 import os
-import re
 from pathlib import Path
 
 import matplotlib
@@ -18,22 +14,27 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
 
-from bolus_validation import cutting  # noqa: E402
 from bolus_validation.cutting_cases import (  # noqa: E402
     ROUGH,
     embedded,
     embedded_force,
 )
-from bolus_validation.fields import Case, read_field  # noqa: E402
-from bolus_validation.physics.cases import draw_cells  # noqa: E402
+from bolus_validation.cutting_runs import (  # noqa: E402
+    Run,
+    book,
+    contours,
+    curves,
+    local_rate,
+    overlay,
+    spread,
+    tutorial_run,
+)
 from bolus_validation.results import (  # noqa: E402
-    optional_table,
     read_table,
 )
 from bolus_validation.studies import (  # noqa: E402
     ROOT,
     Findings,
-    kept_run,
     study,
 )
 
@@ -45,224 +46,6 @@ NAMES = {
     "HerschelBulkley": "Herschel-Bulkley",
     "JLaw": "J law",
 }
-
-# Of the tutorials: what is set to these is the same run
-DEFAULTS = {"speed": 2.5e-3, "law": "viscoplastic"}
-
-# Measured curves, if there are any: CSV files <cylinder2D|wire2D>_<speed in
-# mm/s>.csv of rows delta [mm], F [N]
-MEASURED = ROOT / "validation" / "data" / "cutting"
-
-
-# --- runs --------------------------------------------------------------------
-
-
-class Run:
-    """A run of a tutorial.
-
-    travel [m], stress = F/(T d) [Pa], both (steps,) over the rows of
-    toolForce; reason: why it stopped before its end, or None
-    """
-
-    def __init__(self, case: Path):
-        self.path = case
-        self.parameters = cutting.read_parameters(
-            case / "system" / "caseParameters"
-        )
-        p = self.parameters
-        self.table = read_table(case, "toolForce")
-        self.travel = self.table["travel"]
-        self.stress = self.table["axial"] / (p.thickness * p.diameter)
-        self.steps = read_table(case, "solver", "steps")
-        stopped = case / "stopped"
-        self.reason = stopped.read_text() if stopped.exists() else None
-
-    @property
-    def depth(self) -> np.ndarray:
-        """delta/H [-]."""
-        p = self.parameters
-        return (self.travel - p.startGap) / p.height
-
-    def at(self, depth: float) -> float:
-        """F/(T d) [Pa] at delta/H [-]; nan beyond the run's end."""
-        last = self.depth[-1] + 1e-6
-        return float(
-            np.interp(depth, self.depth, self.stress)
-            if depth < last
-            else np.nan
-        )
-
-    @property
-    def cpu(self) -> float:
-        """Computing time [s]."""
-        return float(self.steps["cpuTime"][-1])
-
-
-def tutorial_run(name: str, **settings) -> Run:
-    """Run a tutorial with these -set entries, or take the run that is there.
-
-    See kept_run. A run that gave up a step is shown as far as it came.
-    """
-    chosen = {e: x for e, x in settings.items() if DEFAULTS.get(e) != x}
-    return Run(kept_run(f"cutting/{name}", "cutting", **chosen))
-
-
-def book(found: Findings, label: str, run: Run) -> None:
-    """Lines 1 and 5 of the issue: end of the run, mass, energy."""
-    p = run.parameters
-    found.row(
-        f"{label}: travel",
-        "mm",
-        1e3 * run.travel[-1],
-        1e3 * p.travel,
-        limit=1e-6,
-        remark=run.reason or f"{run.cpu:.0f} s of computing",
-    )
-    found.row(
-        f"{label}: mass error",
-        "-",
-        float(np.max(abs(run.steps["massError"]))),
-        0.0,
-        limit=1e-3,
-        scale=1.0,
-    )
-    energy = optional_table(run.path, "energyBalance")
-    if energy:
-        found.row(
-            f"{label}: residual of the energy balance over the work",
-            "-",
-            float(np.max(abs(energy["relative"][1:]))),
-            0.0,
-            limit=0.02,
-            scale=1.0,
-        )
-
-
-# --- local rates -------------------------------------------------------------
-
-
-def strain_rates(case: Case, time: float) -> np.ndarray:
-    """Equivalent strain rate of the cells of a plane mesh [1/s] (nCells,).
-
-    From the velocity of the cells' corners, by Gauss's theorem.
-    """
-    mesh = case.mesh(time)
-    velocity = read_field(case.times[time] / "pointU", len(mesh.points))
-    rates = np.zeros(mesh.n_cells)
-    empty = [
-        i for p in mesh.patches.values() if p.type == "empty" for i in p.faces
-    ]
-    for i in empty:
-        if mesh.face_areas[i, 2] <= 0:
-            continue
-        face = mesh.faces[i]
-        x, u = mesh.points[face, :2], velocity[face, :2]
-        edge = np.roll(x, -1, axis=0) - x
-        normal = np.column_stack([edge[:, 1], -edge[:, 0]])
-        middle = 0.5 * (u + np.roll(u, -1, axis=0))
-        gradient = middle.T @ normal / mesh.face_areas[i, 2]
-        d = np.zeros((3, 3))
-        d[:2, :2] = 0.5 * (gradient + gradient.T)
-        d -= np.trace(d) / 3 * np.eye(3)
-        rates[mesh.owner[i]] = np.sqrt(2 / 3 * (d * d).sum())
-    return rates
-
-
-def local_rate(run: Run, depth: float) -> float:
-    """Mean equivalent strain rate [1/s] within a quarter of d below the tool.
-
-    Of the cells of bolus around the lower half of the tool, by volume, at
-    delta/H.
-    """
-    case, p = Case(run.path), run.parameters
-    time = case.nearest(
-        depth * p.height / p.speed, 0.51 * p.writeTravel / p.speed
-    )
-    if time is None:
-        return float("nan")
-    mesh = case.mesh(time)
-    centre = np.array([0, p.centre - p.speed * time])
-    away = mesh.cell_centres[:, :2] - centre
-    near = (
-        (np.linalg.norm(away, axis=1) < p.radius + 0.25 * p.diameter)
-        & (away[:, 1] < 0)
-        & (case.field(time, "alpha") > 0.9)
-    )
-    rates = strain_rates(case, time)
-    return float(np.average(rates[near], weights=mesh.cell_volumes[near]))
-
-
-# --- pictures ----------------------------------------------------------------
-
-
-def curves(folder: Path, runs: dict, name: str = "curves.png") -> str:
-    """F/(T d) over delta/H, like the paper's Fig. 7."""
-    figure, axis = plt.subplots(figsize=(7, 4.8), layout="constrained")
-    for label, run in runs.items():
-        axis.plot(run.depth, run.stress / 1e3, lw=1, label=label)
-    axis.set(xlabel="delta / H [-]", ylabel="F / (T d) [kPa]")
-    axis.set(xlim=(0, None), ylim=(0, None))
-    axis.legend(fontsize=7)
-    figure.savefig(folder / name, dpi=120)
-    plt.close(figure)
-    return name
-
-
-def contours(folder: Path, runs: dict, fields, depth: float, name: str) -> str:
-    """Fields of runs at delta/H, like the paper's Figs. 5 and 6."""
-    figure, axes = plt.subplots(
-        len(fields),
-        len(runs),
-        figsize=(4.2 * len(runs), 3.8 * len(fields)),
-        layout="constrained",
-        squeeze=False,
-    )
-    for j, (label, run) in enumerate(runs.items()):
-        case, p = Case(run.path), run.parameters
-        time = max(
-            (t for t in case.times if t * p.speed <= depth * p.height + 1e-9),
-        )
-        mesh = case.mesh(time)
-        bolus = case.field(time, "alpha") > 0.5
-        for i, field in enumerate(fields):
-            values = np.where(bolus, case.field(time, field), np.nan)
-            seen = values[bolus]
-            axis = axes[i, j]
-            draw_cells(
-                axis,
-                mesh,
-                values,
-                1e-3,
-                field,
-                clim=np.percentile(seen, [1, 99]) if seen.size else None,
-            )
-            axis.set_title(
-                f"{label}, delta {1e3 * time * p.speed:.3g} mm", fontsize=8
-            )
-    figure.savefig(folder / name, dpi=90)
-    plt.close(figure)
-    return name
-
-
-def overlay(found: Findings, folder: Path, tutorial: str, runs: dict) -> None:
-    """Score the runs against measured curves, where such files are."""
-    for speed, run in runs.items():
-        path = MEASURED / f"{tutorial}_{1e3 * speed:g}.csv"
-        if not path.exists():
-            continue
-        with open(path) as lines:
-            rows = [
-                tuple(map(float, row))
-                for row in csv.reader(lines)
-                if row and re.match(r"\s*[-+.\d]", row[0])
-            ]
-        way, force = np.array(rows).T
-        ours = np.interp(1e-3 * way, run.travel, run.table["axial"])
-        found.row(
-            f"rms distance to {path.name} over its largest force",
-            "-",
-            float(np.sqrt(np.mean((ours - force) ** 2)) / force.max()),
-        )
 
 
 # --- the studies -------------------------------------------------------------
@@ -411,20 +194,6 @@ def cylinder_laws(folder: Path, quick: bool) -> Findings:
     found.remarks.append("Contours near the end: cylinder_laws/contours.png")
     found.picture = "curves.png"
     return found
-
-
-def spread(run: Run, depth: float) -> float:
-    """Part of the bolus whose plastic strain is above 0.1 at delta/H."""
-    case, p = Case(run.path), run.parameters
-    time = case.nearest(
-        depth * p.height / p.speed, 0.51 * p.writeTravel / p.speed
-    )
-    if time is None:
-        return float("nan")
-    volume = case.field(time, "alpha") * case.mesh(time).cell_volumes
-    return float(
-        volume[case.field(time, "epsilonPEq") > 0.1].sum() / volume.sum()
-    )
 
 
 def compare(

@@ -197,18 +197,20 @@ def solver_hash() -> str:
     )
 
 
-def kept_run(tutorial: str, page: str, **settings) -> Path:
+def kept_run(tutorial: str, page: str, ranks: int = 1, **settings) -> Path:
     """Run a tutorial with these -set entries, or take the run that is there.
 
     tutorial    as in ./Allrun run, for example gastric/caseA
     page        the run is kept in run/validate/<page>/runs
+    ranks       on how many it runs
     Returns the case's folder. A run that was stopped from outside goes on from
     its last written time; one that gave up a step is kept with its reason in
     the file "stopped". Two processes that ask for the same run do not start it
     twice. Raises RuntimeError with what was printed if it failed otherwise.
     """
     options = [f"{name}={number}" for name, number in sorted(settings.items())]
-    key = hashlib.sha256((solver_hash() + tutorial + str(options)).encode())
+    what = tutorial + str(options) + (f" -np {ranks}" if ranks > 1 else "")
+    key = hashlib.sha256((solver_hash() + what).encode())
     folder = ROOT / "run" / "validate" / page / "runs"
     folder.mkdir(parents=True, exist_ok=True)
     case = folder / f"{Path(tutorial).name}-{key.hexdigest()[:16]}"
@@ -221,6 +223,7 @@ def kept_run(tutorial: str, page: str, **settings) -> Path:
         done = subprocess.run(
             [
                 *(ROOT / "scripts" / "runCase", tutorial, "-out", case),
+                *("-np", str(ranks)),
                 *(["-continue"] if again else []),
                 *(w for o in options if not again for w in ("-set", o)),
             ],
@@ -286,8 +289,16 @@ def _run_one(name: str, folder: Path, key: str) -> dict:
     return result
 
 
-def run_all(page: str, title: str, names=(), force: bool = False) -> int:
+def run_all(
+    page: str,
+    title: str,
+    names=(),
+    force: bool = False,
+    workers: int | None = None,
+) -> int:
     """Run the registered studies, or those named; write the page.
+
+    workers    studies at a time; None: one for each core
 
     Returns the exit code: 0 if every limit was met.
     """
@@ -318,7 +329,7 @@ def run_all(page: str, title: str, names=(), force: bool = False) -> int:
         f"{len(chosen) - len(missing)} kept",
         flush=True,
     )
-    with ProcessPoolExecutor(max_workers=os.cpu_count()) as pool:
+    with ProcessPoolExecutor(max_workers=workers or os.cpu_count()) as pool:
         futures = [pool.submit(_run_one, *job) for job in missing]
         for n, future in enumerate(as_completed(futures), 1):
             result = future.result()

@@ -8,6 +8,7 @@ is kept in mutations.json; a study that was stopped goes on.
 """
 
 import argparse
+import fcntl
 import hashlib
 import json
 import os
@@ -373,6 +374,13 @@ def main(names) -> int:
     chosen = [
         m for m in MUTATIONS if not names or any(n in m.name for n in names)
     ]
+    BASE.mkdir(parents=True, exist_ok=True)
+    # Two at once would break each other's copy
+    lock = open(BASE / "lock", "w")  # noqa: SIM115: held until the end
+    try:
+        fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except BlockingIOError:
+        sys.exit(f"mutations: another run of this command is at work in {BASE}")
     fresh_copy()
     for number, m in enumerate(chosen, 1):
         path = TREE / m.file

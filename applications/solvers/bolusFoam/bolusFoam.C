@@ -26,6 +26,7 @@ Usage
 #include "petscHandles.H"
 #include "argList.H"
 #include "dynamicFvMesh.H"
+#include "profiling.H"
 #include "bolusFields.H"
 #include "energyBooks.H"
 #include "historyTransport.H"
@@ -157,8 +158,14 @@ int main(int argc, char* argv[])
         const scalar fullest = gMax(fields.alpha.primitiveField());
         while (!done)
         {
-            mesh.update();
-            solved = system.solve(runTime.deltaTValue());
+            {
+                addProfiling(motion, "mesh motion");
+                mesh.update();
+            }
+            {
+                addProfiling(equilibrium, "equilibrium");
+                solved = system.solve(runTime.deltaTValue());
+            }
 
             if (solved.converged)
             {
@@ -168,6 +175,7 @@ int main(int argc, char* argv[])
                          << system.checkTangent(runTime.deltaTValue()) << endl;
                 }
                 system.accept(fields.phi, fields.wallForce, fields.wallPower);
+                addProfiling(transport, "transport");
                 moved = transport.advance(
                     fields.phi, runTime.deltaTValue(), fields.massFlux
                 );
@@ -213,11 +221,15 @@ int main(int argc, char* argv[])
         control.done(solved.iterations, moved.bulkCourant);
         report.step(solved, moved);
 
-        if (control.write()) written.write();
+        if (control.write())
+        {
+            addProfiling(write, "write");
+            written.write();
+        }
     }
     written.complete();
 
-    report.summary();
+    report.summary(system.linearIterations());
     Info << "End" << nl << endl;
 
     return 0;

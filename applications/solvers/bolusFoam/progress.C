@@ -142,7 +142,7 @@ void Foam::progress::step(
 }
 
 
-void Foam::progress::summary() const
+void Foam::progress::summary(const label linearIterations) const
 {
     Info << nl << "Summary" << nl << "    end time         " << time_.value()
          << " s" << nl << "    cells            "
@@ -152,6 +152,7 @@ void Foam::progress::summary() const
          << "    rejected steps   " << control_.rejected() << nl
          << "    friction lagged  " << lagged_ << " steps" << nl
          << "    Newton iterations " << control_.iterations() << nl
+         << "    linear iterations " << linearIterations << nl
          << "    mass error       " << massError_ << nl
          << "    overfull steps   " << overfull_ << " (alpha above 1.01)" << nl
          << "    spilled          " << spilled_ / initial_ << " of the bolus"

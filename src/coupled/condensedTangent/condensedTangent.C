@@ -2,6 +2,7 @@
 // Copyright (C) 2026 the bolusFoam developers
 
 #include "condensedTangent.H"
+#include "profiling.H"
 
 namespace Foam
 {
@@ -216,9 +217,22 @@ PetscErrorCode Foam::condensedTangent::solve(Vec f, Vec x, bool& solved) const
         VecRestoreArray(right_, &r);
     }
 
-    PetscErrorCode code = KSPSolve(solver_, right_, solution_);
-    KSPConvergedReason reason;
-    KSPGetConvergedReason(solver_, &reason);
+    // Apart, for the profile: the first thing that KSPSolve would do
+    PetscErrorCode code;
+    {
+        addProfiling(factorisation, "factorisation");
+        code = KSPSetUp(solver_);
+    }
+    KSPConvergedReason reason = KSP_DIVERGED_PC_FAILED;
+    if (code == 0)
+    {
+        addProfiling(substitution, "linear solve");
+        code = KSPSolve(solver_, right_, solution_);
+        KSPGetConvergedReason(solver_, &reason);
+        PetscInt iterations;
+        KSPGetIterationNumber(solver_, &iterations);
+        iterations_ += iterations;
+    }
     solved = code == 0 && reason > 0;
 
     PetscScalar* result;
@@ -271,7 +285,8 @@ Foam::condensedTangent::condensedTangent(
     C_(space.cellDofs().size(), Zero),
     D_(space.mesh().nCells(), 1.0),
     scatter_(scatter),
-    local_(local)
+    local_(local),
+    iterations_(0)
 {
     preallocate();
     MatCreateVecs(A_, solution_.set(), right_.set());

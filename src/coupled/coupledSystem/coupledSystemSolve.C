@@ -3,6 +3,7 @@
 
 #include "coupledSystem.H"
 #include "globalIndex.H"
+#include "profiling.H"
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
@@ -252,6 +253,7 @@ void Foam::coupledSystem::computeNorms(Vec f)
 PetscErrorCode
 Foam::coupledSystem::residualFunction(SNES, Vec x, Vec f, void* ctx)
 {
+    addProfiling(residual, "residual");
     coupledSystem& system = *static_cast<coupledSystem*>(ctx);
     system.gather(x);
     system.assemble(f, nullptr);
@@ -276,6 +278,7 @@ Foam::coupledSystem::jacobianFunction(SNES, Vec x, Mat, Mat, void* ctx)
     // did: where that is enough, it saves a factorisation
     if (system.residual_ * system.contraction_ > system.tolerance_)
     {
+        addProfiling(tangent, "tangent");
         system.assemble(nullptr, &*system.tangent_);
     }
     system.qLast_ = system.q_;

@@ -1,0 +1,261 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Copyright (C) 2026 the bolusFoam developers
+"""Studies of ./Allrun validate speed: where the time goes, and what it buys.
+
+size_0.6, size_0.3, size_0.15: case A until its first wave has broken the bolus,
+on one core and on two, timed by OpenFOAM's own profiling; scaling: how the cost
+grows with the cells. Nothing else may run meanwhile: the studies run one by
+one, and tell how busy the machine was when they began.
+"""
+
+import os
+import re
+import time
+from pathlib import Path
+
+import matplotlib
+import numpy as np
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt  # noqa: E402
+
+from bolus_validation import stock  # noqa: E402
+from bolus_validation.results import read_table  # noqa: E402
+from bolus_validation.specimens import compression  # noqa: E402
+from bolus_validation.studies import (  # noqa: E402
+    Findings,
+    kept_run,
+    study,
+)
+
+# Cell sizes [mm], and until when [s]: the wave is in the bolus from 6.9 s on
+SIZES = (0.6, 0.3, 0.15)
+END = 9.0
+
+# What is shown: the names that the solver gives them, and OpenFOAM its own
+PHASES = {
+    "assembly": ("residual", "tangent"),
+    "factorisation": ("factorisation",),
+    "solve": ("linear solve",),
+    "transport": ("transport",),
+    "mesh motion": ("mesh motion",),
+    "output": ("write", "functionObjects.execute()"),
+}
+
+
+def read_profile(path: Path) -> dict[str, float]:
+    """Seconds by name of TIME/uniform/profiling; names that occur more than
+    once are summed.
+
+    Raises ValueError if the file has none.
+    """
+    found: dict[str, float] = {}
+    for block in re.findall(r"trigger\d+\s*\{(.*?)\}", path.read_text(), re.S):
+        entries = dict(re.findall(r'(\w+)\s+("[^"]*"|[^;]+);', block))
+        name = entries["description"].strip('"')
+        found[name] = found.get(name, 0) + float(entries["totalTime"])
+    if not found:
+        raise ValueError(f"{path}: has no trigger; valid is a file of OpenFOAM")
+    return found
+
+
+def timed_run(size: float, ranks: int) -> Path:
+    """The folder of a run of case A on cells of a size [mm] until END."""
+    return kept_run(
+        "gastric/caseA",
+        "speed",
+        ranks=ranks,
+        resolution=size * 1e-3,
+        pylorusRefinement=max(2.5 * size, 1.0),
+        endTime=END,
+        **{"system/controlDict:profiling.active": "true"},
+    )
+
+
+def costs(case: Path, ranks: int) -> dict[str, float]:
+    """Seconds by phase (of the first rank) and in all, counts of a run."""
+    base = case / "processor0" if ranks > 1 else case
+    seconds = read_profile(base / f"{END:g}" / "uniform" / "profiling")
+    found = {
+        phase: sum(seconds.get(name, 0) for name in names)
+        for phase, names in PHASES.items()
+    }
+    steps = read_table(case, "solver", "steps")
+    log = (case / "log.bolusFoam").read_text()
+    total = seconds["application::main"]
+    return found | {
+        "the rest": total - sum(found.values()),
+        "total": total,
+        "steps": steps.time.size,
+        "rejected steps": steps["rejected"][-1],
+        "Newton iterations": steps["NewtonIterations"].sum(),
+        "linear iterations": float(
+            re.findall(r"linear iterations (\d+)", log)[-1]
+        ),
+        "cells": float(re.findall(r"cells\s+(\d+)", log)[-1]),
+    }
+
+
+def load() -> str:
+    """How busy the machine is, for a remark."""
+    return f"load of the machine before: {os.getloadavg()[0]:.1f}"
+
+
+def register(size: float) -> None:
+    """The study of one cell size."""
+
+    @study(
+        f"size_{size:g}",
+        "S",
+        f"Case A until {END:g} s on cells of {size:g} mm",
+        "one core against two; for information",
+    )
+    def run_study(folder: Path, quick: bool) -> Findings:
+        found = Findings()
+        found.remarks.append(load())
+        figure, axes = plt.subplots(figsize=(8, 2.5), layout="constrained")
+        totals = {}
+        for ranks in (1, 2):
+            cost = costs(timed_run(size, ranks), ranks)
+            totals[ranks] = cost["total"]
+            left = 0.0
+            print(f"  {size:g} mm, {ranks} ranks", flush=True)
+            for name, number in cost.items():
+                phase = name in PHASES or name in ("the rest", "total")
+                each = number / cost["steps"] if phase else number
+                unit = "s/step" if phase else "-"
+                found.row(f"{name}, {ranks} ranks", unit, each)
+                print(f"    {name:20} {each:12.5g} {unit}", flush=True)
+                if phase and name != "total":
+                    axes.barh(
+                        f"{ranks} ranks",
+                        each,
+                        left=left,
+                        label=name if ranks == 1 else None,
+                    )
+                    left += each
+            axes.set_prop_cycle(None)
+        found.row("two ranks faster by", "-", totals[1] / totals[2])
+        axes.set_xlabel("seconds per step")
+        axes.legend(fontsize=8, ncols=4)
+        figure.savefig(folder / "phases.png", dpi=110)
+        plt.close(figure)
+        found.picture = "phases.png"
+        return found
+
+
+for _size in SIZES:
+    register(_size)
+
+
+@study(
+    "scaling",
+    "S",
+    "How the cost grows with the cells",
+    "the exponent of a power law through the cell sizes, one core",
+)
+def scaling(folder: Path, quick: bool) -> Findings:
+    found = Findings()
+    every = [costs(timed_run(size, 1), 1) for size in SIZES]
+    cells = np.array([cost["cells"] for cost in every])
+    figure, axes = plt.subplots(figsize=(6, 4), layout="constrained")
+    for name in (*PHASES, "total"):
+        each = np.array([cost[name] / cost["steps"] for cost in every])
+        exponent = np.polyfit(np.log(cells), np.log(each), 1)[0]
+        found.row(f"exponent of the seconds per step, {name}", "-", exponent)
+        print(f"    exponent per step, {name:15} {exponent:.2f}", flush=True)
+        axes.loglog(cells, each, "o-", label=name)
+    total = np.array([cost["total"] for cost in every])
+    found.row(
+        "exponent of all the seconds",
+        "-",
+        np.polyfit(np.log(cells), np.log(total), 1)[0],
+    )
+    axes.set(xlabel="cells", ylabel="seconds per step")
+    axes.legend(fontsize=8)
+    figure.savefig(folder / "scaling.png", dpi=110)
+    plt.close(figure)
+    found.picture = "scaling.png"
+    return found
+
+
+# Cells along axis and radius, platen's velocity for interFoam [m/s]
+MESHES = ((14, 18), (28, 36))
+VELOCITY = 2e-3
+# interFoam: (factor on the density, step [s], end [s], meshes). Its start, with
+# the smallest factor, is there to tell what the food's own density would cost
+STOCK = ((2.5e4, 1e-3, 2.0, MESHES), (2.5e3, 1e-4, 0.2, MESHES[:1]))
+
+
+@study(
+    "stockCompression",
+    "S",
+    "The compression by stock interFoam and by bolusFoam",
+    "flow stress times section, no friction: exact",
+)
+def stock_compression(folder: Path, quick: bool) -> Findings:
+    """Force after 0.2 strain, and seconds, of both on the same meshes."""
+    found = Findings()
+    found.remarks.append(load())
+    figure, axes = plt.subplots(figsize=(7, 4), layout="constrained")
+    for cells in MESHES:
+        what = f"{cells[0]} x {cells[1]} cells"
+        case = folder / f"ours-{cells[0]}"
+        start = time.monotonic()
+        ours = compression(
+            case,
+            material="HerschelBulkley",
+            strain=0.3,
+            unloadStrain=0,
+            nAxial=cells[0],
+            nRadial=cells[1],
+        )
+        seconds = time.monotonic() - start
+        force = ours.at("force", 0.25)
+        exact = stock.flow_stress(0.1) * np.pi * stock.RADIUS**2 * np.exp(0.25)
+        found.row(f"force, bolusFoam, {what}", "N", force, exact, 0.01)
+        found.row(f"time for a second, bolusFoam, {what}", "s", seconds / 3)
+        axes.plot(
+            ours.strain,
+            ours.force * np.exp(-ours.strain),
+            label=f"bolusFoam, {what}, {seconds:.0f} s",
+        )
+
+        for density, step, end, meshes in STOCK:
+            if cells not in meshes:
+                continue
+            case = stock.prepare(
+                folder / f"interFoam-{cells[0]}-{density:g}",
+                cells,
+                VELOCITY,
+                end,
+                step,
+                density,
+            )
+            label = f"interFoam, density times {density:g}, {what}"
+            try:
+                times, force, seconds = stock.solve(case)
+            except RuntimeError as error:
+                found.remarks.append(f"{label}: {str(error)[-300:]}")
+                continue
+            path = VELOCITY * times
+            exact = stock.exact_force(path, VELOCITY)
+            found.row(
+                f"force after {end:g} s, {label}", "N", force[-1], exact[-1]
+            )
+            found.row(f"time for a second, {label}", "s", seconds / end)
+            axes.plot(
+                -np.log(1 - path / stock.HEIGHT),
+                force * (1 - path / stock.HEIGHT),
+                label=f"{label}, {seconds:.0f} s",
+            )
+    axes.set(
+        xlabel="strain",
+        ylabel="force times height, of that at first [N]",
+        ylim=(0, 5),
+    )
+    axes.legend(fontsize=7)
+    figure.savefig(folder / "force.png", dpi=110)
+    plt.close(figure)
+    found.picture = "force.png"
+    return found

@@ -1,0 +1,70 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Copyright (C) 2026 the bolusFoam developers
+"""./Allrun validate speed: what it reads, and the stock solver beside ours."""
+
+import numpy as np
+import pytest
+from bolus_validation import stock
+from bolus_validation.specimens import prepare_compression
+from bolus_validation.speed_study import PHASES, read_profile
+from bolus_validation.synthetic import run
+
+
+@pytest.fixture(scope="module")
+def profile(tmp_path_factory):
+    """Seconds by name of a short run with OpenFOAM's profiling."""
+    case = tmp_path_factory.mktemp("speed") / "case"
+    prepare_compression(case, strain=0.05, unloadStrain=0)
+    with open(case / "system" / "controlDict", "a") as control:
+        control.write("profiling { active true; }\n")
+    run(case, "bolusFoam")
+    (last,) = case.glob("0.5/uniform/profiling")
+    return read_profile(last)
+
+
+def test_the_solver_names_every_phase(profile):
+    missing = [
+        name
+        for names in PHASES.values()
+        for name in names
+        if profile.get(name, 0) <= 0
+    ]
+    assert not missing
+
+
+def test_the_phases_are_most_of_the_time_and_not_more(profile):
+    known = sum(profile[name] for names in PHASES.values() for name in names)
+    total = profile["application::main"]
+    assert 0.5 * total < known < total
+    # What equilibrium takes is assembly and the linear system
+    inner = sum(
+        profile[name]
+        for phase in ("assembly", "factorisation", "solve")
+        for name in PHASES[phase]
+    )
+    assert 0.7 * profile["equilibrium"] < inner < profile["equilibrium"]
+
+
+def test_a_file_that_is_no_profile_is_refused(tmp_path):
+    (tmp_path / "profiling").write_text("profiling {}")
+    with pytest.raises(ValueError, match="no trigger"):
+        read_profile(tmp_path / "profiling")
+
+
+def test_the_exact_force_is_stress_times_section():
+    # At rate 0.1/s 9742 Pa; half the height doubles section and rate
+    first, half = stock.exact_force(np.array([0.0, 0.01]), 2e-3)
+    assert first == pytest.approx(9742 * np.pi * 1e-4, rel=1e-4)
+    assert half == pytest.approx(
+        2 * (4100 + 11000 * 0.2**0.29) * np.pi * 1e-4, rel=1e-12
+    )
+
+
+def test_inter_foam_compresses_the_same_cylinder(tmp_path):
+    # Its start, of which inertia takes most, and the right order of magnitude
+    case = stock.prepare(tmp_path / "stock", (7, 9), 2e-3, 0.1, 1e-3, 2.5e4)
+    times, force, seconds = stock.solve(case)
+    assert times[-1] == pytest.approx(0.1)
+    exact = stock.exact_force(2e-3 * times[-1:], 2e-3)
+    assert force[-1] == pytest.approx(exact[0], rel=0.2)
+    assert seconds > 0
