@@ -14,7 +14,7 @@ from bolus_validation.synthetic import run
 def profile(tmp_path_factory):
     """Seconds by name of a short run with OpenFOAM's profiling."""
     case = tmp_path_factory.mktemp("speed") / "case"
-    prepare_compression(case, strain=0.05, unloadStrain=0)
+    prepare_compression(case, strain=0.05, unloadStrain=0, writeStrain=0.05)
     with open(case / "system" / "controlDict", "a") as control:
         control.write("profiling { active true; }\n")
     run(case, "bolusFoam")
