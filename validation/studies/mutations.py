@@ -230,7 +230,7 @@ MUTATIONS = (
         "- b * C_[start + j]",
         "- 0.5 * b * C_[start + j]",
         COUPLED,
-        "test_solver.py -k plateau_equals",
+        "test_solver.py -k tangent_equals",
     ),
     Mutation(
         "transport loses a thousandth of what leaves a cell",

@@ -3,6 +3,7 @@
 
 #include "coupledSystem.H"
 #include "contactWallFvPatchVectorField.H"
+#include "frictionless.H"
 #include "emptyPolyPatch.H"
 #include "entryReader.H"
 #include "fvcGrad.H"
@@ -100,6 +101,7 @@ void Foam::coupledSystem::setContact()
         if (!wall.friction().sticks())
         {
             friction_[patchi] = &wall.friction();
+            if (!isA<frictionless>(wall.friction())) rubs_ = true;
         }
 
         const labelList& cells = bm[patchi].faceCells();
@@ -228,6 +230,7 @@ Foam::coupledSystem::coupledSystem(
     space_(mesh_, kinds(state.U)),
     elasticSlip_(state.elasticSlip),
     deltaT_(1),
+    rubs_(false),
     lagged_(false),
     secant_(true),
     q_(space_.nd() * space_.nNodes(), Zero),

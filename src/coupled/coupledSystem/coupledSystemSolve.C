@@ -386,7 +386,7 @@ const Foam::coupledSystem::report& Foam::coupledSystem::solve(
     // Where the threshold of a face falls faster than its load as it begins to
     // slip, there is no equilibrium to be found: the thing snaps. A threshold
     // that waits for the next step leaves one
-    if (reason < 0 && deltaT_ <= lagFrictionBelow_)
+    if (reason < 0 && rubs_ && deltaT_ <= lagFrictionBelow_)
     {
         lagged_ = true;
         reason = newton();
