@@ -137,7 +137,9 @@ def register(size: float) -> None:
             axes.set_prop_cycle(None)
         found.row("two ranks faster by", "-", totals[1] / totals[2])
         axes.set_xlabel("seconds per step")
-        axes.legend(fontsize=8, ncols=4)
+        axes.legend(
+            fontsize=8, ncols=7, loc="lower center", bbox_to_anchor=(0.5, 1)
+        )
         figure.savefig(folder / "phases.png", dpi=110)
         plt.close(figure)
         found.picture = "phases.png"
@@ -194,7 +196,7 @@ STOCK = ((2.5e4, 1e-3, 2.0, MESHES), (2.5e3, 1e-4, 0.2, MESHES[:1]))
     "flow stress times section, no friction: exact",
 )
 def stock_compression(folder: Path, quick: bool) -> Findings:
-    """Force after 0.2 strain, and seconds, of both on the same meshes."""
+    """Forces against the exact ones, and seconds, on the same meshes."""
     found = Findings()
     found.remarks.append(load())
     figure, axes = plt.subplots(figsize=(7, 4), layout="constrained")
@@ -233,11 +235,7 @@ def stock_compression(folder: Path, quick: bool) -> Findings:
                 density,
             )
             label = f"interFoam, density times {density:g}, {what}"
-            try:
-                times, force, seconds = stock.solve(case)
-            except RuntimeError as error:
-                found.remarks.append(f"{label}: {str(error)[-300:]}")
-                continue
+            times, force, seconds = stock.solve(case)
             path = VELOCITY * times
             exact = stock.exact_force(path, VELOCITY)
             found.row(

@@ -167,7 +167,7 @@ def solve(case: Path) -> tuple[np.ndarray, np.ndarray, float]:
     """Run interFoam: times [s] (n,), forces [N] (n,) of the whole cylinder on
     the moving platen, seconds it took.
 
-    Raises RuntimeError if it stops with an error.
+    Raises AssertionError with what it printed if it stops with an error.
     """
     start = time.monotonic()
     (case / "log.interFoam").write_text(run(case, "interFoam"))

@@ -11,6 +11,7 @@ A result is kept under run/validate/<page>/<study> and taken again as long as
 nothing that it depends on has changed: solver, study, common properties.
 """
 
+import argparse
 import fcntl
 import hashlib
 import html
@@ -20,6 +21,7 @@ import os
 import re
 import shutil
 import subprocess
+import sys
 import time
 import traceback
 from collections.abc import Callable
@@ -346,6 +348,17 @@ def run_all(
     _write_page(base, page, title, results)
     print(f"validate: {base.relative_to(ROOT) / (page + '.html')}")
     return 0 if all(results[n]["met"] for n in chosen) else 1
+
+
+def command(
+    page: str, title: str, description: str, workers: int | None = None
+) -> None:
+    """The command of a page: its arguments, run_all(), the exit code."""
+    parser = argparse.ArgumentParser(description=description)
+    parser.add_argument("names", nargs="*", help="studies; default: all")
+    parser.add_argument("-force", action="store_true", help="run again")
+    given = parser.parse_args()
+    sys.exit(run_all(page, title, given.names, given.force, workers))
 
 
 def _number(x: float | None) -> str:

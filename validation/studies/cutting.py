@@ -2,7 +2,6 @@
 # Copyright (C) 2026 the bolusFoam developers
 """Cutting by cylinder and wire: limit analysis, speeds, laws, cell sizes."""
 
-import argparse
 import sys
 from pathlib import Path
 
@@ -10,11 +9,7 @@ sys.path.insert(0, str(Path(__file__).parents[1]))
 
 # The studies register themselves
 from bolus_validation import cutting_study  # noqa: E402, F401
-from bolus_validation.studies import run_all  # noqa: E402
+from bolus_validation.studies import command  # noqa: E402
 
 if __name__ == "__main__":
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("names", nargs="*", help="studies; default: all")
-    parser.add_argument("-force", action="store_true", help="run again")
-    given = parser.parse_args()
-    sys.exit(run_all("cutting", "bolusFoam: cutting", given.names, given.force))
+    command("cutting", "bolusFoam: cutting", __doc__)

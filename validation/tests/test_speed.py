@@ -62,10 +62,11 @@ def test_the_exact_force_is_stress_times_section():
 
 
 def test_inter_foam_compresses_the_same_cylinder(tmp_path):
-    # Its start, of which inertia takes most, and the right order of magnitude
+    # Found 4.9 % above: the start's inertia, of 25,000 times the density, which
+    # falls to 0.6 % at 0.25 s
     case = stock.prepare(tmp_path / "stock", (7, 9), 2e-3, 0.1, 1e-3, 2.5e4)
     times, force, seconds = stock.solve(case)
     assert times[-1] == pytest.approx(0.1)
     exact = stock.exact_force(2e-3 * times[-1:], 2e-3)
-    assert force[-1] == pytest.approx(exact[0], rel=0.2)
+    assert force[-1] == pytest.approx(exact[0], rel=0.07)
     assert seconds > 0

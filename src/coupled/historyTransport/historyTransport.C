@@ -3,6 +3,7 @@
 
 #include "historyTransport.H"
 #include "planarInterface.H"
+#include "nodalSpace.H"
 #include "entryReader.H"
 #include "labelIOList.H"
 #include "syncTools.H"
@@ -329,17 +330,7 @@ void Foam::historyTransport::setSwept(
     const label nInternal = mesh_.nInternalFaces();
 
     auto extent = [&](const label c, const vector& dir)
-    {
-        scalar low = GREAT;
-        scalar high = -GREAT;
-        for (const label p : mesh_.cellPoints()[c])
-        {
-            const scalar x = mesh_.points()[p] & dir;
-            low = min(low, x);
-            high = max(high, x);
-        }
-        return high - low;
-    };
+    { return nodalSpace::extent(mesh_, mesh_.points(), c, dir); };
 
     // By the processor of the donor cell, which tells the other one
     forAll(flux, f)

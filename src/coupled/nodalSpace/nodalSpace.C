@@ -594,16 +594,18 @@ Foam::scalar Foam::nodalSpace::wedgeAngle() const
 }
 
 
-Foam::scalar Foam::nodalSpace::cellSize(
+Foam::scalar Foam::nodalSpace::extent(
+    const primitiveMesh& mesh,
+    const pointField& points,
     const label celli,
     const vector& dir
-) const
+)
 {
     scalar low = GREAT;
     scalar high = -GREAT;
-    for (const label p : mesh_.cellPoints()[celli])
+    for (const label p : mesh.cellPoints()[celli])
     {
-        const scalar x = midPoints_[p] & dir;
+        const scalar x = points[p] & dir;
         low = min(low, x);
         high = max(high, x);
     }

@@ -237,6 +237,51 @@ def chance_paper(folder: Path, quick: bool) -> Findings:
     return chance(folder, FIRST_STEPS, nonlocalLength=0, tensileStrain=0)
 
 
+# (tensileStrain [-], nonlocalLength [m]); 0.1 and 2 mm, and the paper's law,
+# are the studies above
+LAWS = ((0, 2e-3), (0.02, 0), (0.05, 2e-3), (0.25, 0))
+
+
+@study(
+    "sensitivity_chanceLaws",
+    "F",
+    "the same with other laws of damage, and what breaks by each",
+    "for each law the run with a first step of 0.01 s; for information",
+)
+def chance_laws(folder: Path, quick: bool) -> Findings:
+    found = Findings()
+    for strain, length in LAWS:
+        law = f"tensileStrain {strain:g}, {1e3 * length:g} mm"
+        runs = [
+            gastric_run(
+                deltaT=step, tensileStrain=strain, nonlocalLength=length
+            )
+            for step in FIRST_STEPS[:3]
+        ]
+        every = [figures(case) for case in runs]
+        for quantity in UNITS:
+            numbers = [numbers[quantity] for numbers in every]
+            found.row(
+                f"spread of {quantity}, {law}",
+                "-",
+                max(numbers) / min(numbers) - 1,
+            )
+        pieces = read_table(runs[0], "fragments")
+        parted = pieces.time[pieces["pieces"] > 1]
+        found.row(
+            f"two pieces from, {law}",
+            "s",
+            parted[0] if parted.size else float("inf"),
+        )
+        broken = read_table(runs[0], "damagedVolume")
+        found.row(
+            f"broken at 18 s, {law}",
+            "-",
+            np.interp(18, broken.time, broken["fraction"]),
+        )
+    return found
+
+
 @study(
     "sensitivity_resolution",
     "F",
