@@ -121,6 +121,14 @@ MUTATIONS = (
         "test_solver_contact.py -k lagged_friction",
     ),
     Mutation(
+        "void left out without a look at the other processors",
+        "src/coupled/nodalSpace/nodalSpace.C",
+        "syncTools::syncPointList(mesh_, points, orEqOp<bool>(), false);",
+        "",
+        COUPLED,
+        "test_cutting.py -k leave_out_the_same_void",
+    ),
+    Mutation(
         "damage at twice the plastic strain",
         "src/rheology/damageModel/triaxialOnsetDamage/triaxialOnsetDamage.H",
         "epsP > epsilonPEq0_ &&",

@@ -47,8 +47,18 @@ void Foam::condensedTangent::preallocate()
     MatSetUp(pattern);
 
     DynamicList<PetscInt> rows;
-    for (label c = 0; c < space_.mesh().nCells(); ++c)
+    for (const label node : space_.ownedNodes())
     {
+        for (label k = 0; k < nd; ++k)
+        {
+            const PetscInt row = space_.nodeRow()[node] + k;
+            const scalar zero = 0;
+            MatSetValues(pattern, 1, &row, 1, &row, &zero, ADD_VALUES);
+        }
+    }
+    forAll(room_, c)
+    {
+        if (!room_[c]) continue;
         rows.clear();
         for (
             label i = space_.cellStart()[c]; i < space_.cellStart()[c + 1]; ++i
@@ -80,6 +90,15 @@ void Foam::condensedTangent::preallocate()
 }
 
 
+void Foam::condensedTangent::createSolver()
+{
+    KSPCreate(PETSC_COMM_WORLD, solver_.set());
+    KSPSetOptionsPrefix(solver_, "bolus_velocity_");
+    KSPSetOperators(solver_, A_, A_);
+    petscCheck(KSPSetFromOptions(solver_), "petscOptions of fvSolution");
+}
+
+
 void Foam::condensedTangent::setRigidMotions()
 {
     if (space_.nd() != 3) return;
@@ -103,7 +122,11 @@ void Foam::condensedTangent::setRigidMotions()
         {
             const vector x = points[space_.nodePoint()[node]] - centre;
             const vector u = m < 3 ? axes[m] : (axes[m - 3] ^ x);
-            for (label k = 0; k < 3; ++k) v[i++] = u & space_.basis()[node][k];
+            for (label k = 0; k < 3; ++k)
+            {
+                v[i++] =
+                    k < space_.nFixed()[node] ? 0 : u & space_.basis()[node][k];
+            }
         }
         VecRestoreArray(vectors[m], &v);
 
@@ -281,6 +304,7 @@ Foam::condensedTangent::condensedTangent(
     Vec local
 ) :
     space_(space),
+    room_(space.mesh().nCells(), false),
     B_(space.cellDofs().size(), Zero),
     C_(space.cellDofs().size(), Zero),
     D_(space.mesh().nCells(), 1.0),
@@ -290,7 +314,6 @@ Foam::condensedTangent::condensedTangent(
 {
     preallocate();
     MatCreateVecs(A_, solution_.set(), right_.set());
-    setRigidMotions();
 
     const label n = space_.nRowsOwned() + space_.mesh().nCells();
     petscCheck(
@@ -309,10 +332,7 @@ Foam::condensedTangent::condensedTangent(
         shell_, MATOP_MULT, reinterpret_cast<void (*)()>(shellMult)
     );
 
-    KSPCreate(PETSC_COMM_WORLD, solver_.set());
-    KSPSetOptionsPrefix(solver_, "bolus_velocity_");
-    KSPSetOperators(solver_, A_, A_);
-    petscCheck(KSPSetFromOptions(solver_), "petscOptions of fvSolution");
+    createSolver();
 }
 
 
@@ -339,9 +359,27 @@ void Foam::condensedTangent::setAccuracy(const scalar tolerance)
 }
 
 
-void Foam::condensedTangent::clear()
+void Foam::condensedTangent::clear(const boolList& cells)
 {
+    bool fits = true;
+    forAll(cells, c)
+    {
+        if (cells[c] && !room_[c]) fits = false;
+    }
+    reduce(fits, andOp<bool>());
+    if (!fits)
+    {
+        // A layer more than needed: the next steps will fit as well
+        room_ = cells;
+        space_.grow(room_);
+        preallocate();
+        createSolver();
+    }
     MatZeroEntries(A_);
+    B_ = 0;
+    C_ = 0;
+    D_ = 1;
+    setRigidMotions();
 }
 
 

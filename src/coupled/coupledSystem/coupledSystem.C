@@ -212,6 +212,18 @@ void Foam::coupledSystem::freeze()
             * (eta_[c]
                 + a_[c] * max(state_.theta[c], scalar(1e-3)) * G * deltaT_);
     }
+
+    solved_.setSize(nCells);
+    solved_ = voidLayers_ == 0;
+    if (voidLayers_ > 0)
+    {
+        forAll(a_, c) solved_[c] = a_[c] > 0;
+        for (label layer = 0; layer < voidLayers_; ++layer)
+        {
+            space_.grow(solved_);
+        }
+        space_.solveOnly(solved_);
+    }
 }
 
 
@@ -284,6 +296,15 @@ Foam::coupledSystem::coupledSystem(
     damageAbove_ = read.number(
         "damageAbove", "alpha above which bolus can break [-]", fraction, 0.1
     );
+    voidLayers_ = label(read.number(
+        "voidLayers", "of cells around the bolus", {0, true, 1e6, true}, 0
+    ));
+    linearTolerance_ = read.number(
+        "linearTolerance",
+        "largest relative residual of the linear solver [-]",
+        {0, false, 0.1, true},
+        1e-3
+    );
     monitor_ = dict.lookupOrDefault("monitor", false);
     read.has("monitor");
     read.has("linearSolver");
@@ -324,16 +345,25 @@ void Foam::coupledSystem::accept(
     forAll(pCell_, c)
     {
         cellResult r;
-        evaluate(c, r);
-        internalForce(c, r, R);
-        bookPower(c, r, R, held);
-        forAll(R, i)
+        if (solved_[c])
         {
-            const label j = space_.cellStart()[c] + i;
-            const label dof = space_.cellDofs()[j];
-            rowForce[dof] += R[i];
-            force[dof] += R[i]
-                + r.P * (space_.V()[c] * tr(space_.G()[j]) - space_.h()[j]);
+            evaluate(c, r);
+            internalForce(c, r, R);
+            bookPower(c, r, R, held);
+            forAll(R, i)
+            {
+                const label j = space_.cellStart()[c] + i;
+                const label dof = space_.cellDofs()[j];
+                rowForce[dof] += R[i];
+                force[dof] += R[i]
+                    + r.P * (space_.V()[c] * tr(space_.G()[j]) - space_.h()[j]);
+            }
+        }
+        else
+        {
+            r.P = 0;
+            r.dev = Zero;
+            elasticEnergy_[c] = 0;
         }
         pressure[c] = r.P;
 

@@ -5,6 +5,8 @@
 #include "globalIndex.H"
 #include "profiling.H"
 
+#include <algorithm>
+
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
 void Foam::coupledSystem::setPetsc(const dictionary& dict)
@@ -24,7 +26,9 @@ void Foam::coupledSystem::setPetsc(const dictionary& dict)
     }
     else if (solver == "multigrid")
     {
+        // Preconditioned from the right: judged by the residual itself
         options += "-bolus_velocity_ksp_type gmres"
+                   " -bolus_velocity_ksp_pc_side right"
                    " -bolus_velocity_ksp_gmres_restart 100"
                    " -bolus_velocity_ksp_max_it 500"
                    " -bolus_velocity_pc_type gamg"
@@ -122,7 +126,7 @@ void Foam::coupledSystem::assemble(Vec f, condensedTangent* J) const
     const label nd = space_.nd();
 
     if (f) VecSet(f, 0);
-    if (J) J->clear();
+    if (J) J->clear(solved_);
 
     DynamicList<scalar> R;
     scalarField Jc;
@@ -132,6 +136,7 @@ void Foam::coupledSystem::assemble(Vec f, condensedTangent* J) const
 
     forAll(pCell_, c)
     {
+        if (!solved_[c]) continue;
         assembleCell(c, R, J ? &Jc : nullptr);
 
         // Scaled rows; those of fixed components are negative: left out.
@@ -220,8 +225,12 @@ void Foam::coupledSystem::computeNorms(Vec f)
     }
     VecRestoreArrayRead(f, &v);
 
-    label n = nNode;
-    label nc = mesh_.nCells();
+    label n = 0;
+    for (const label node : space_.ownedNodes())
+    {
+        if (!space_.frozen()[node]) n += space_.nd();
+    }
+    label nc = std::count(solved_.begin(), solved_.end(), true);
     reduce(m2, sumOp<scalar>());
     reduce(c2, sumOp<scalar>());
     reduce(n, sumOp<label>());
@@ -270,9 +279,10 @@ Foam::coupledSystem::jacobianFunction(SNES, Vec x, Mat, Mat, void* ctx)
     // As accurate as this iteration can make use of (Eisenstat and Walker
     // 1996, choice 2)
     const scalar useful = 0.1 * system.tolerance_ / system.residual_;
-    system.tangent_->setAccuracy(min(
-        max(max(sqr(system.contraction_), useful), scalar(1e-4)), scalar(3e-3)
-    ));
+    system.tangent_->setAccuracy(
+        min(max(max(sqr(system.contraction_), useful), scalar(1e-5)),
+            system.linearTolerance_)
+    );
 
     // With the same tangent the next iteration gains about what the last one
     // did: where that is enough, it saves a factorisation
@@ -374,7 +384,7 @@ const Foam::coupledSystem::report& Foam::coupledSystem::solve(
                 / U0_;
         }
     }
-    for (const scalar p : state_.pStart) v[i++] = p / P0_;
+    forAll(solved_, c) v[i++] = solved_[c] ? state_.pStart[c] / P0_ : 0;
     VecRestoreArray(x_, &v);
 
     gather(x_);

@@ -255,6 +255,8 @@ void Foam::nodalSpace::setConstraints(const scalar deltaT)
         }
     }
 
+    frozen_.setSize(nNodes);
+    frozen_ = false;
     nFixed_.setSize(nNodes);
     nFixed_ = 0;
     basis_.setSize(nNodes);
@@ -573,6 +575,46 @@ void Foam::nodalSpace::update(const scalar deltaT)
     setFaceWeights();
     setConstraints(deltaT);
     setCells();
+}
+
+
+Foam::boolList Foam::nodalSpace::pointsOf(const boolList& cells) const
+{
+    boolList points(mesh_.nPoints(), false);
+    forAll(cells, c)
+    {
+        if (!cells[c]) continue;
+        for (const label p : mesh_.cellPoints()[c]) points[p] = true;
+    }
+    syncTools::syncPointList(mesh_, points, orEqOp<bool>(), false);
+    return points;
+}
+
+
+void Foam::nodalSpace::grow(boolList& cells) const
+{
+    const boolList points(pointsOf(cells));
+    forAll(points, p)
+    {
+        if (!points[p]) continue;
+        for (const label c : mesh_.pointCells()[p]) cells[c] = true;
+    }
+}
+
+
+void Foam::nodalSpace::solveOnly(const boolList& cells)
+{
+    const boolList points(pointsOf(cells));
+
+    frozen_ = true;
+    forAll(points, p)
+    {
+        if (points[p]) frozen_[pointNode_[p]] = false;
+    }
+    forAll(frozen_, n)
+    {
+        if (frozen_[n]) nFixed_[n] = nd_;
+    }
 }
 
 
