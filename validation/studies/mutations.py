@@ -122,7 +122,7 @@ MUTATIONS = (
     ),
     Mutation(
         "void left out without a look at the other processors",
-        "src/coupled/nodalSpace/nodalSpace.C",
+        SPACE,
         "syncTools::syncPointList(mesh_, points, orEqOp<bool>(), false);",
         "",
         COUPLED,
