@@ -316,7 +316,7 @@ def cylinder_platen(folder: Path, quick: bool) -> Findings:
 @study(
     "cylinder_void",
     "C",
-    "Cylinder at 2.5 mm/s: artificial resistance of the void",
+    "Cylinder at 2.5 mm/s: artificial resistance of the void, void left out",
     "the run of the tutorial; 1 %",
 )
 def cylinder_void(folder: Path, quick: bool) -> Findings:
@@ -324,6 +324,7 @@ def cylinder_void(folder: Path, quick: bool) -> Findings:
     runs = {"10 Pa": tutorial_run("cylinder2D")}
     for stress in (5, 20):
         runs[f"{stress} Pa"] = tutorial_run("cylinder2D", voidStress=stress)
+    runs["two layers of void"] = tutorial_run("cylinder2D", voidLayers=2)
     compare(found, runs, "10 Pa", (0.1, 0.3, 0.5, 0.7, 0.9), 0.01)
     found.picture = curves(folder, runs)
     return found

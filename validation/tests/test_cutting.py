@@ -178,8 +178,8 @@ def near_only(folder):
         case = prepare(folder / f"near{n}", **SHORT, friction="coulomb")
         replace(
             case / "system" / "fvSolution",
-            r"maxIterations\s+60;",
-            "maxIterations 60; voidLayers 1;",
+            r"voidLayers\s+0;",
+            "voidLayers 1;",
         )
         if n == 1:
             solve(case)
