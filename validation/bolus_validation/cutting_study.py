@@ -6,6 +6,7 @@ The runs are those of the tutorials, with settings: see cutting_runs. SI units.
 """
 
 import os
+import re
 from pathlib import Path
 
 import matplotlib
@@ -404,6 +405,54 @@ def wire_j(folder: Path, quick: bool) -> Findings:
         j.at(0.4) / j.at(0.2),
         remark="paper: like an exponential",
     )
+    found.picture = curves(folder, runs)
+    return found
+
+
+@study(
+    "solid_solver",
+    "E",
+    "The first 0.5 mm in 3D, four layers: multigrid against the direct solver",
+    "the direct solver; force 1 %, no step rejected at the tutorial's accuracy",
+)
+def solid_solver(folder: Path, quick: bool) -> Findings:
+    found = Findings()
+    coarse = {"cellsThrough": 4, "travel": 5e-4}
+    left = {
+        "system/fvSolution:bolus.petscOptions": (
+            '"-bolus_velocity_ksp_pc_side left"'
+        )
+    }
+    solver = "system/fvSolution:bolus.linearSolver"
+    accuracy = "system/fvSolution:bolus.linearTolerance"
+    runs = {
+        name: tutorial_run("cylinder3D", **coarse | changes)
+        for name, changes in {
+            "direct": {solver: "direct"},
+            "to 1e-3": {},
+            "to 1e-2": {accuracy: 1e-2},
+            "to 1e-3, from the left": left,
+            "all void": {"system/fvSolution:bolus.voidLayers": 0},
+        }.items()
+    }
+    for name, run in runs.items():
+        log = (run.path / "log.bolusFoam").read_text()
+        counts = {
+            what: int(re.findall(rf"{what}\s+(\d+)", log)[-1])
+            for what in ("Newton iterations", "linear iterations")
+        }
+        for what, number in counts.items():
+            found.row(f"{what}, {name}", "-", number)
+        found.row(
+            f"rejected steps, {name}",
+            "-",
+            float(run.steps["rejected"][-1]),
+            0.0,
+            limit=0.5 if name == "to 1e-3" else None,
+            scale=1.0,
+            remark=run.reason or f"{run.cpu:.0f} s of computing",
+        )
+    compare(found, runs, "direct", (0.005, 0.0125, 0.025), 0.01, "to 1e-3")
     found.picture = curves(folder, runs)
     return found
 

@@ -196,10 +196,12 @@ def test_void_far_from_the_bolus_need_not_be_solved(pressed, near_only):
         for case in (pressed["coulomb"], near_only[0])
     )
     assert near["work"][-1] == pytest.approx(whole["work"][-1], rel=0.005)
-    # Without stress there, and not because all is
-    last = Case(near_only[0])
-    p = last.field(max(last.times), "p")
-    assert 0.05 < np.mean(p == 0) < 0.9
+    # No pressure there: found in 9.6 % of the cells, of all solved 3.7 %
+    still = [
+        np.mean(case.field(max(case.times), "p") == 0)
+        for case in (Case(pressed["coulomb"]), Case(near_only[0]))
+    ]
+    assert 2 * still[0] < still[1] < 0.5
     assert np.max(abs(near["residual"])) < 1e-4 * near["work"][-1]
 
 

@@ -77,6 +77,18 @@ BAD = {
         "\nnu 0.49; poisson 0.3;",
         ["poisson", "valid entries", "nu"],
     ),
+    "half a layer of void": (
+        "system/fvSolution",
+        r"bolus \{\}",
+        "bolus { voidLayers 2.5; }",
+        ["Entry voidLayers", "2.5", "whole number"],
+    ),
+    "a linear solver that need not solve": (
+        "system/fvSolution",
+        r"bolus \{\}",
+        "bolus { linearTolerance 1; }",
+        ["Entry linearTolerance", "1;", "> 0 and <= 0.1"],
+    ),
     "negative modulus": (
         "constant/bolusProperties",
         r"\n\s*E\s+\S+;",

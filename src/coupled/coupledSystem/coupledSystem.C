@@ -258,9 +258,9 @@ Foam::coupledSystem::coupledSystem(
         {0, false, 1e-2, true},
         1e-6
     );
-    maxIterations_ = label(read.number(
+    maxIterations_ = read.wholeNumber(
         "maxIterations", "of Newton's method", {1, true, 1e5, true}, 60
-    ));
+    );
     lagFrictionBelow_ = read.number(
         "lagFrictionBelow",
         "longest step whose friction may be lagged [s]",
@@ -296,9 +296,9 @@ Foam::coupledSystem::coupledSystem(
     damageAbove_ = read.number(
         "damageAbove", "alpha above which bolus can break [-]", fraction, 0.1
     );
-    voidLayers_ = label(read.number(
+    voidLayers_ = read.wholeNumber(
         "voidLayers", "of cells around the bolus", {0, true, 1e6, true}, 0
-    ));
+    );
     linearTolerance_ = read.number(
         "linearTolerance",
         "largest relative residual of the linear solver [-]",

@@ -76,7 +76,7 @@ Foam::entryReader::entryReader(const dictionary& dict) :
 
 bool Foam::entryReader::has(const word& key)
 {
-    known_.append(key);
+    if (!known_.found(key)) known_.append(key);
 
     return dict_.found(key);
 }
@@ -147,6 +147,26 @@ Foam::scalar Foam::entryReader::number(
 )
 {
     return has(key) ? number(key, meaning, valid) : defaultValue;
+}
+
+
+Foam::label Foam::entryReader::wholeNumber(
+    const word& key,
+    const string& meaning,
+    const interval& valid,
+    const label defaultValue
+)
+{
+    const scalar value = number(key, meaning, valid, defaultValue);
+
+    if (value != label(value))
+    {
+        FatalIOErrorInFunction(dict_)
+            << "Entry " << key << " is " << value << "; " << meaning.c_str()
+            << " must be a whole number" << exit(FatalIOError);
+    }
+
+    return label(value);
 }
 
 
