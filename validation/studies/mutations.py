@@ -26,6 +26,8 @@ COUPLED = ("src/coupled",)
 RHEOLOGY = ("src/rheology",)
 CELL = "src/coupled/coupledSystem/coupledSystemCell.C"
 SYSTEM = "src/coupled/coupledSystem/coupledSystem.C"
+SOLVE = "src/coupled/coupledSystem/coupledSystemSolve.C"
+TANGENT = "src/coupled/condensedTangent/condensedTangent.C"
 ENERGY = "src/coupled/coupledSystem/coupledSystemEnergy.C"
 SPACE = "src/coupled/nodalSpace/nodalSpace.C"
 MEMORY = "src/coupled/historyTransport/historyTransportMemory.C"
@@ -127,6 +129,22 @@ MUTATIONS = (
         "",
         COUPLED,
         "test_cutting.py -k leave_out_the_same_void",
+    ),
+    Mutation(
+        "a failed linear solution fails those after it",
+        TANGENT,
+        "PCSetFailedReason(pc, solved ? PC_NOERROR : PC_SUBPC_ERROR);",
+        "if (!solved) PCSetFailedReason(pc, PC_SUBPC_ERROR);",
+        COUPLED,
+        "test_solver.py -k failed_linear_solution",
+    ),
+    Mutation(
+        "multigrid preconditioned by the threshold of friction",
+        SOLVE,
+        "J->leaveOut(c, threshold, rows, cols);",
+        "",
+        COUPLED,
+        "test_solver.py -k not_preconditioned_by_the_threshold",
     ),
     Mutation(
         "damage at twice the plastic strain",

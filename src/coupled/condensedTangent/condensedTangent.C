@@ -87,6 +87,10 @@ void Foam::condensedTangent::preallocate()
     MatSetBlockSize(A_, nd);
     MatPreallocatorPreallocate(pattern, PETSC_TRUE, A_);
     MatSetOption(A_, MAT_NEW_NONZERO_ALLOCATION_ERR, PETSC_TRUE);
+    if (iterative_)
+    {
+        MatDuplicate(A_, MAT_DO_NOT_COPY_VALUES, preconditioner_.set());
+    }
 }
 
 
@@ -94,14 +98,14 @@ void Foam::condensedTangent::createSolver()
 {
     KSPCreate(PETSC_COMM_WORLD, solver_.set());
     KSPSetOptionsPrefix(solver_, "bolus_velocity_");
-    KSPSetOperators(solver_, A_, A_);
+    KSPSetOperators(solver_, A_, iterative_ ? preconditioner_ : A_);
     petscCheck(KSPSetFromOptions(solver_), "petscOptions of fvSolution");
 }
 
 
 void Foam::condensedTangent::setRigidMotions()
 {
-    if (space_.nd() != 3) return;
+    if (!iterative_ || space_.nd() != 3) return;
 
     const trapsOff noTraps;
     const pointField& points = space_.mesh().points();
@@ -142,7 +146,7 @@ void Foam::condensedTangent::setRigidMotions()
 
     MatNullSpace rigid;
     MatNullSpaceCreate(PETSC_COMM_WORLD, PETSC_FALSE, 6, vectors, &rigid);
-    MatSetNearNullSpace(A_, rigid);
+    MatSetNearNullSpace(preconditioner_, rigid);
     MatNullSpaceDestroy(&rigid);
 }
 
@@ -291,7 +295,8 @@ PetscErrorCode Foam::condensedTangent::shellSolve(PC pc, Vec f, Vec x)
     bool solved;
     const PetscErrorCode code =
         static_cast<const condensedTangent*>(self)->solve(f, x, solved);
-    if (!solved) PCSetFailedReason(pc, PC_SUBPC_ERROR);
+    // Not left to the next solution: nothing else takes a failure back
+    PCSetFailedReason(pc, solved ? PC_NOERROR : PC_SUBPC_ERROR);
     return code;
 }
 
@@ -301,13 +306,15 @@ PetscErrorCode Foam::condensedTangent::shellSolve(PC pc, Vec f, Vec x)
 Foam::condensedTangent::condensedTangent(
     const nodalSpace& space,
     VecScatter scatter,
-    Vec local
+    Vec local,
+    const bool iterative
 ) :
     space_(space),
     room_(space.mesh().nCells(), false),
     B_(space.cellDofs().size(), Zero),
     C_(space.cellDofs().size(), Zero),
     D_(space.mesh().nCells(), 1.0),
+    iterative_(iterative),
     scatter_(scatter),
     local_(local),
     iterations_(0)
@@ -376,6 +383,7 @@ void Foam::condensedTangent::clear(const boolList& cells)
         createSolver();
     }
     MatZeroEntries(A_);
+    if (iterative_) MatZeroEntries(preconditioner_);
     B_ = 0;
     C_ = 0;
     D_ = 1;
@@ -414,6 +422,39 @@ void Foam::condensedTangent::add(
 }
 
 
+void Foam::condensedTangent::leaveOut(
+    const label c,
+    const scalarField& part,
+    const UList<PetscInt>& rows,
+    const UList<PetscInt>& cols
+)
+{
+    if (!iterative_) return;
+
+    // The pressure with them, as it follows the velocities
+    const label n = cols.size();
+    const scalar* C = &C_[space_.cellStart()[c]];
+    scalarField less(n * n);
+    for (label i = 0; i < n; ++i)
+    {
+        const scalar* row = &part[i * (n + 1)];
+        for (label j = 0; j < n; ++j)
+        {
+            less[i * n + j] = row[n] * C[j] / D_[c] - row[j];
+        }
+    }
+    MatSetValues(
+        preconditioner_,
+        n,
+        rows.cdata(),
+        n,
+        cols.cdata(),
+        less.cdata(),
+        ADD_VALUES
+    );
+}
+
+
 void Foam::condensedTangent::fix(const PetscInt row)
 {
     const scalar one = 1;
@@ -425,9 +466,15 @@ void Foam::condensedTangent::finish()
 {
     MatAssemblyBegin(A_, MAT_FINAL_ASSEMBLY);
     MatAssemblyEnd(A_, MAT_FINAL_ASSEMBLY);
+    if (iterative_)
+    {
+        MatAssemblyBegin(preconditioner_, MAT_FINAL_ASSEMBLY);
+        MatAssemblyEnd(preconditioner_, MAT_FINAL_ASSEMBLY);
+        MatAXPY(preconditioner_, 1, A_, SAME_NONZERO_PATTERN);
+    }
     MatAssemblyBegin(shell_, MAT_FINAL_ASSEMBLY);
     MatAssemblyEnd(shell_, MAT_FINAL_ASSEMBLY);
-    KSPSetOperators(solver_, A_, A_);
+    KSPSetOperators(solver_, A_, iterative_ ? preconditioner_ : A_);
 }
 
 // ************************************************************************* //

@@ -170,7 +170,8 @@ bool Foam::coupledSystem::evaluateContact(
 void Foam::coupledSystem::assembleCell(
     const label c,
     DynamicList<scalar>& R,
-    scalarField* J
+    scalarField* J,
+    scalarField& threshold
 ) const
 {
     const label start = space_.cellStart()[c];
@@ -255,6 +256,7 @@ void Foam::coupledSystem::assembleCell(
     }
 
     // Friction on the cell's wall faces
+    threshold.clear();
     forAll(contactFaces_[c], fi)
     {
         contact k;
@@ -299,10 +301,15 @@ void Foam::coupledSystem::assembleCell(
                                     / max(slip, VSMALL));
                     }
                 }
+                if (dpn == 0) continue;
+
+                if (threshold.empty()) threshold.setSize((n + 1) * (n + 1), 0);
                 for (label j = 0; j <= n; ++j)
                 {
-                    row[j] += w * dpn * along
+                    const scalar d = w * dpn * along
                         * ((j == n ? 1 : 0) - (k.n & dS_[j] & k.n));
+                    row[j] += d;
+                    threshold[(s + i) * (n + 1) + j] += d;
                 }
             }
         }

@@ -30,10 +30,14 @@ void Foam::coupledSystem::setPetsc(const dictionary& dict)
         options += "-bolus_velocity_ksp_type gmres"
                    " -bolus_velocity_ksp_pc_side right"
                    " -bolus_velocity_ksp_gmres_restart 100"
+                   " -bolus_velocity_ksp_gmres_cgs_refinement_type"
+                   " refine_ifneeded"
                    " -bolus_velocity_ksp_max_it 500"
                    " -bolus_velocity_pc_type gamg"
                    " -bolus_velocity_mg_levels_ksp_type chebyshev"
                    " -bolus_velocity_mg_levels_ksp_max_it 3"
+                   " -bolus_velocity_mg_levels_ksp_chebyshev_esteig"
+                   " 0,0.05,0,1.1"
                    " -bolus_velocity_mg_levels_pc_type jacobi ";
     }
     else
@@ -92,7 +96,9 @@ void Foam::coupledSystem::setPetsc(const dictionary& dict)
         "VecScatterCreate"
     );
 
-    tangent_.reset(new condensedTangent(space_, scatter_, local_));
+    tangent_.reset(
+        new condensedTangent(space_, scatter_, local_, solver != "direct")
+    );
 
     SNESCreate(PETSC_COMM_WORLD, snes_.set());
     SNESSetOptionsPrefix(snes_, "bolus_");
@@ -130,6 +136,7 @@ void Foam::coupledSystem::assemble(Vec f, condensedTangent* J) const
 
     DynamicList<scalar> R;
     scalarField Jc;
+    scalarField threshold;
     DynamicList<PetscInt> rows;
     DynamicList<PetscInt> cols;
     DynamicList<scalar> rowScale;
@@ -137,7 +144,7 @@ void Foam::coupledSystem::assemble(Vec f, condensedTangent* J) const
     forAll(pCell_, c)
     {
         if (!solved_[c]) continue;
-        assembleCell(c, R, J ? &Jc : nullptr);
+        assembleCell(c, R, J ? &Jc : nullptr, threshold);
 
         // Scaled rows; those of fixed components are negative: left out.
         // The residual's rows are those of x_, the tangent's of velocities
@@ -164,14 +171,21 @@ void Foam::coupledSystem::assemble(Vec f, condensedTangent* J) const
         }
         else
         {
-            for (label i = 0; i <= n; ++i)
+            const auto scale = [&](scalarField& block)
             {
-                for (label j = 0; j <= n; ++j)
+                forAll(block, k)
                 {
-                    Jc[i * (n + 1) + j] *= rowScale[i] * (j < n ? U0_ : P0_);
+                    block[k] *=
+                        rowScale[k / (n + 1)] * (k % (n + 1) < n ? U0_ : P0_);
                 }
-            }
+            };
+            scale(Jc);
             J->add(c, Jc, rows, cols);
+            if (threshold.size())
+            {
+                scale(threshold);
+                J->leaveOut(c, threshold, rows, cols);
+            }
         }
     }
 
@@ -276,14 +290,6 @@ Foam::coupledSystem::jacobianFunction(SNES, Vec x, Mat, Mat, void* ctx)
     coupledSystem& system = *static_cast<coupledSystem*>(ctx);
     system.gather(x);
 
-    // As accurate as this iteration can make use of (Eisenstat and Walker
-    // 1996, choice 2)
-    const scalar useful = 0.1 * system.tolerance_ / system.residual_;
-    system.tangent_->setAccuracy(
-        min(max(max(sqr(system.contraction_), useful), scalar(1e-5)),
-            system.linearTolerance_)
-    );
-
     // With the same tangent the next iteration gains about what the last one
     // did: where that is enough, it saves a factorisation
     if (system.residual_ * system.contraction_ > system.tolerance_)
@@ -291,6 +297,14 @@ Foam::coupledSystem::jacobianFunction(SNES, Vec x, Mat, Mat, void* ctx)
         addProfiling(tangent, "tangent");
         system.assemble(nullptr, &*system.tangent_);
     }
+
+    // As accurate as this iteration can make use of (Eisenstat and Walker
+    // 1996, choice 2)
+    const scalar useful = 0.1 * system.tolerance_ / system.residual_;
+    system.tangent_->setAccuracy(
+        min(max(max(sqr(system.contraction_), useful), scalar(1e-5)),
+            system.linearTolerance_)
+    );
     system.qLast_ = system.q_;
     return 0;
 }
