@@ -12,22 +12,24 @@ gmshToFoam), 0/alpha and system/derivedParameters. SI units.
 
     python -m bolus_validation.cutting tool.stl
 
-checks that a surface is closed, before a mesh is made around it by other
-means (snappyHexMesh): the motion solver rigidTool moves any patch.
+only checks that a surface is closed. Entry toolSurface makes the mesh around
+one (see tool_surface); the motion solver rigidTool moves any patch.
 """
 
 import math
 import re
 import subprocess
 import sys
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from pathlib import Path
 
 import gmsh
 import numpy as np
+from scipy.spatial import cKDTree
 
 from bolus_validation.fields import Mesh, read_mesh
 from bolus_validation.synthetic import write_file
+from bolus_validation.tool_surface import check_surface, divide, outline
 
 
 @dataclass
@@ -58,11 +60,23 @@ class Parameters:
     roomThrough: float
     startGap: float
     voidStress: float
+    # STL file, and its outline (see tool_surface) at the axis (n, 2)
+    toolSurface: Path | None = None
+    outline: np.ndarray | None = None
 
     @property
     def radius(self) -> float:
-        """Of the tool [m]."""
-        return 0.5 * self.diameter
+        """Largest distance of the tool's surface from its axis [m]."""
+        if self.outline is None:
+            return 0.5 * self.diameter
+        return np.linalg.norm(self.outline, axis=1).max()
+
+    @property
+    def front(self) -> float:
+        """How far the tool reaches ahead of its axis [m]."""
+        if self.outline is None:
+            return 0.5 * self.diameter
+        return -self.outline[:, 1].min()
 
     @property
     def box(self) -> float:
@@ -70,14 +84,24 @@ class Parameters:
         return self.radius + self.boxCells * self.cellSize
 
     @property
+    def around(self) -> int:
+        """Cells of the O-grid to each half side of the square."""
+        return max(1, round(self.box / self.cellSize))
+
+    @property
     def centre(self) -> float:
         """Height of the tool's axis at the start [m]."""
-        return self.height + self.startGap + self.radius
+        return self.height + self.startGap + self.front
 
     @property
     def top(self) -> float:
         """Height of the mesh [m]."""
         return self.centre + self.box + self.roomBehind
+
+    @property
+    def depth(self) -> float:
+        """Of the mesh along the tool [m]."""
+        return self.thickness + (0 if self.plane else 2 * self.roomThrough)
 
     @property
     def plane(self) -> bool:
@@ -95,6 +119,8 @@ def read_parameters(path: Path) -> Parameters:
     found = dict(re.findall(r"(\w+)\s+([^\s;]+)\s*;", text))
     values = {}
     for entry in fields(Parameters):
+        if entry.name in ("toolSurface", "outline"):
+            continue
         word = found.get(entry.name)
         if word is None:
             raise SystemExit(f"{path}: entry {entry.name} is missing")
@@ -110,6 +136,9 @@ def read_parameters(path: Path) -> Parameters:
             )
         values[entry.name] = number
     given = Parameters(**values)
+    surface = found.get("toolSurface", "none").strip('"')
+    if surface != "none":
+        given = around_surface(given, path.parents[1] / surface)
     if given.diameter < 3 * given.cellSize:
         raise SystemExit(
             f"{path}: entry diameter is {given.diameter:g}, thinner than three "
@@ -129,6 +158,18 @@ def read_parameters(path: Path) -> Parameters:
             f"than the cells around the tool, {2 * given.box:g}"
         )
     return given
+
+
+def around_surface(p: Parameters, path: Path) -> Parameters:
+    """The same with the tool of an STL file."""
+    p = replace(p, toolSurface=path, outline=outline(path, p.depth))
+    width = 2 * p.outline[:, 0].max()
+    if abs(width - p.diameter) > 0.01 * width:
+        raise SystemExit(
+            f"entry diameter is {p.diameter:g}, but the tool of {path} is "
+            f"{width:g} wide; valid is its width"
+        )
+    return p
 
 
 # --- mesh --------------------------------------------------------------------
@@ -177,7 +218,7 @@ class _Sketch:
 def _draw(p: Parameters) -> _Sketch:
     """The section: an O-grid around half the tool, Cartesian blocks beyond."""
     sketch = _Sketch()
-    around = max(1, round(p.box / p.cellSize))
+    around = p.around
     x = [0, p.box, 0.5 * p.width, 0.5 * p.width + p.roomSide]
     y = [0, p.centre - p.box, p.centre + p.box, p.top]
     grid = [[sketch.point(a, b) for b in y] for a in x]
@@ -230,13 +271,42 @@ def _draw(p: Parameters) -> _Sketch:
     return sketch
 
 
+def _fit_tool(p: Parameters) -> None:
+    """Move the nodes of the O-grid from the circle to the tool's outline."""
+    n, m = p.around, np.arange(p.nearCells + 1)
+    v = (p.nearGrowth**m - 1) if p.nearGrowth != 1 else m
+    v = (v / v[-1])[None, :, None]
+    angles = np.linspace(-0.5 * np.pi, 0.5 * np.pi, 4 * n + 1)
+    circle = p.radius * np.column_stack([np.cos(angles), np.sin(angles)])
+    side = p.box * np.linspace(-1, 1, 2 * n + 1)
+    half = p.box * np.linspace(0, 1, n + 1)
+    square = np.array(
+        [(x, -p.box) for x in half]
+        + [(p.box, y) for y in side[1:]]
+        + [(x, p.box) for x in half[-2::-1]]
+    )[:, None, :]
+    tool = divide(p.toolSurface, p.outline, 4 * n)
+    was, will = (
+        ((1 - v) * inner[:, None, :] + v * square).reshape(-1, 2)
+        + (0, p.centre)
+        for inner in (circle, tool)
+    )
+
+    tags, points, _ = gmsh.model.mesh.getNodes()
+    points = points.reshape(-1, 3)
+    distance, which = cKDTree(was).query(points[:, :2])
+    for i in np.flatnonzero(distance < 1e-6 * p.radius):
+        place = [*will[which[i]], points[i, 2]]
+        gmsh.model.mesh.setNode(tags[i], place, [])
+
+
 def _layers(p: Parameters) -> tuple[list[int], list[float], float, float]:
     """Layers of cells along z: numbers, relative heights, start and depth."""
     if p.plane:
         return [1], [1.0], 0.0, p.thickness
     if p.roomThrough == 0:
         return [p.cellsThrough], [1.0], -0.5 * p.thickness, p.thickness
-    depth = p.thickness + 2 * p.roomThrough
+    depth = p.depth
     outside = max(1, round(p.roomThrough * p.cellsThrough / p.thickness))
     first = p.roomThrough / depth
     return (
@@ -308,6 +378,8 @@ def write_mesh(case: Path, p: Parameters, types=TYPES) -> Mesh:
         volumes = [tag for _, tag in gmsh.model.getEntities(3)]
         gmsh.model.addPhysicalGroup(3, volumes, name="domain")
         gmsh.model.mesh.generate(3)
+        if p.outline is not None:
+            _fit_tool(p)
         gmsh.option.setNumber("Mesh.MshFileVersion", 2.2)
         gmsh.write(str(case / "constant" / "cutting.msh"))
     finally:
@@ -332,49 +404,6 @@ def write_mesh(case: Path, p: Parameters, types=TYPES) -> Mesh:
     if mesh.cell_volumes.min() <= 0:
         raise SystemExit("cutting: the mesh has cells that are inside out")
     return mesh
-
-
-# --- tools given as surfaces --------------------------------------------------
-
-
-def read_stl(path: Path) -> np.ndarray:
-    """Corners of the triangles of an STL file, ASCII or binary (n, 3, 3)."""
-    data = path.read_bytes()
-    count = int.from_bytes(data[80:84], "little") if len(data) >= 84 else -1
-    if len(data) == 84 + 50 * count:
-        kind = np.dtype([("n", "<f4", 3), ("p", "<f4", (3, 3)), ("a", "<u2")])
-        return np.frombuffer(data, kind, count, 84)["p"].astype(float)
-    found = re.findall(rb"vertex\s+(\S+)\s+(\S+)\s+(\S+)", data)
-    if not found or len(found) % 3:
-        raise SystemExit(f"{path}: no STL file: {len(found)} corners")
-    return np.array(found, dtype=float).reshape(-1, 3, 3)
-
-
-def check_surface(path: Path) -> np.ndarray:
-    """Triangles of an STL file that must be closed (n, 3, 3).
-
-    Closed: each edge belongs to two triangles, which pass it in opposite
-    directions.
-    """
-    triangles = read_stl(path)
-    size = np.ptp(triangles.reshape(-1, 3), axis=0).max()
-    # Corners agree to the precision of binary STL
-    corners = np.round(triangles.reshape(-1, 3) / (1e-6 * size)).astype(int)
-    _, label = np.unique(corners, axis=0, return_inverse=True)
-    label = label.reshape(-1, 3)
-    edges = np.concatenate([label[:, [i, (i + 1) % 3]] for i in range(3)])
-    have = {}
-    for a, b in edges:
-        have[a, b] = have.get((a, b), 0) + 1
-    loose = sum(
-        n != 1 or have.get((b, a), 0) != 1 for (a, b), n in have.items()
-    )
-    if loose:
-        raise SystemExit(
-            f"{path}: the surface is open: {loose} of its edges do not belong "
-            "to two triangles of opposite sense; valid is a closed surface"
-        )
-    return triangles
 
 
 # --- initial field -----------------------------------------------------------

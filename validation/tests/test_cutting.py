@@ -22,6 +22,7 @@ from bolus_validation.fields import Case, read_mesh
 from bolus_validation.results import read_table
 from bolus_validation.specimens import replace, run_case, solve
 from bolus_validation.synthetic import run, run_parallel
+from bolus_validation.tool_surface import outline
 
 # Four cells per diameter: some 300 cells, 10 mm of travel in a few seconds
 COARSE = {
@@ -360,22 +361,157 @@ def test_the_mesher_tells_bad_parameters(tmp_path, entries, words):
     assert "Traceback" not in output
 
 
-def tetrahedron(path, faces) -> None:
-    """Write some of the faces of a tetrahedron as STL."""
-    corners = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]
+# --- tools given as surfaces --------------------------------------------------
+
+
+def write_stl(path, triangles) -> None:
+    """Write triangles (n, 3, 3) as STL."""
     text = "solid tool\n"
-    for face in faces:
+    for triangle in triangles:
         text += "facet normal 0 0 0\nouter loop\n"
-        for i in face:
-            text += "vertex {} {} {}\n".format(*corners[i])
+        for corner in triangle:
+            text += "vertex {:.9g} {:.9g} {:.9g}\n".format(*corner)
         text += "endloop\nendfacet\n"
     path.write_text(text + "endsolid tool\n")
 
 
+def write_bar(path, section, low=-0.02, high=0.02):
+    """Write a bar from low to high along z with this section (n, 2) [m].
+
+    The ends fan out from the mean of the corners.
+    """
+    section = np.array(section)
+    middle = section.mean(axis=0)
+    triangles = []
+    for a, b in zip(section, np.roll(section, -1, axis=0), strict=True):
+        a0, b0, c0, a1, b1, c1 = (
+            (*p, z) for z in (low, high) for p in (a, b, middle)
+        )
+        triangles += [(a0, b0, b1), (a0, b1, a1), (c0, b0, a0), (c1, a1, b1)]
+    write_stl(path, triangles)
+    return path
+
+
+def ring(n: int, radius: float) -> np.ndarray:
+    """Corners of a polygon (n, 2), the first to the right."""
+    angle = 2 * np.pi * np.arange(n) / n
+    return radius * np.column_stack([np.cos(angle), np.sin(angle)])
+
+
+WEDGE = 1e-3 * np.array(
+    [(0, -4), (2.5, 0), (2.5, 4), (-2.5, 4), (-2.5, 0)], dtype=float
+)
+
+
 def test_an_open_stl_is_told_and_a_closed_one_passes(tmp_path):
-    faces = [(0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2)]
-    tetrahedron(tmp_path / "closed.stl", faces)
+    corners = np.array([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)])
+    faces = corners[[(0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2)]]
+    write_stl(tmp_path / "closed.stl", faces)
     assert cutting.check_surface(tmp_path / "closed.stl").shape == (4, 3, 3)
-    tetrahedron(tmp_path / "open.stl", faces[:3])
+    write_stl(tmp_path / "open.stl", faces[:3])
     with pytest.raises(SystemExit, match="open.stl: the surface is open: 3 of"):
         cutting.check_surface(tmp_path / "open.stl")
+
+
+def test_the_surface_of_a_cylinder_gives_the_mesh_of_the_cylinder(
+    folder, tmp_path
+):
+    stl = write_bar(tmp_path / "round.stl", ring(256, 2.5e-3))
+    points = [
+        read_mesh(case / "constant" / "polyMesh").points
+        for case in (
+            prepare(folder / "round", **SHORT),
+            prepare(folder / "round-stl", **SHORT, toolSurface=stl),
+        )
+    ]
+    # The polygon's sides are 2e-7 m inside of the circle
+    assert points[1] == pytest.approx(points[0], abs=1e-6)
+
+
+def test_a_wedge_is_meshed_with_its_edges_and_cuts(folder, tmp_path):
+    stl = write_bar(tmp_path / "wedge.stl", WEDGE)
+    case = prepare(folder / "wedge", **SHORT, toolSurface=stl)
+    mesh = read_mesh(case / "constant" / "polyMesh")
+    p = cutting.read_parameters(case / "system" / "caseParameters")
+    faces = mesh.patches["tool"].faces
+    area = np.linalg.norm(mesh.face_areas[faces], axis=1).sum()
+    perimeter = 2.5e-3 + 4e-3 + np.hypot(2.5e-3, 4e-3)
+    assert area == pytest.approx(perimeter * p.thickness, rel=1e-6)
+    # Its edge touches the block
+    nodes = mesh.points[np.unique([i for f in faces for i in mesh.faces[f]])]
+    assert nodes[:, 1].min() == pytest.approx(p.height, rel=1e-9)
+
+    run(case, "bolusFoam")
+    tool = force(case)["axial"]
+    platen = read_table(case, "platenForce", "contactForce")["axial"]
+    assert tool[-1] > 0.5
+    assert platen == pytest.approx(tool, rel=0, abs=1e-3 * tool.max())
+
+
+HOURGLASS = 1e-3 * np.array(
+    [(0, -3), (2.5, -2), (0.5, -1), (2.5, 3), (-2.5, 3), (-0.5, -1), (-2.5, -2)]
+)
+
+BAD_SURFACES = {
+    # what: section, ends along z, entries, words that the message must have
+    "no file": (None, (), {}, ["no such file"]),
+    "not star-shaped": (
+        HOURGLASS,
+        (),
+        {},
+        ["degrees", "meets the tool", "seen whole"],
+    ),
+    "beside the axis": (
+        ring(8, 1e-3) + (4e-3, 0),
+        (),
+        {},
+        ["meets the tool", "around the axis"],
+    ),
+    "not symmetric": (WEDGE + (5e-4, 0), (), {}, ["not symmetric"]),
+    "too short": (
+        WEDGE,
+        (-0.02, 0.01),
+        {},
+        ["reaches from z = -0.02 to 0.01", "0.015"],
+    ),
+    "other width": (
+        WEDGE,
+        (),
+        {"diameter": 6e-3},
+        ["diameter", "0.006", "0.005 wide"],
+    ),
+    "corners closer than cells": (
+        1e-3 * np.array([(0.02, -4), (2.5, 2), (-2.5, 2), (-0.02, -4)]),
+        (),
+        {},
+        ["corners", "smaller cellSize"],
+    ),
+}
+
+
+@pytest.mark.parametrize("what", BAD_SURFACES)
+def test_the_mesher_tells_bad_surfaces(tmp_path, what):
+    section, ends, entries, words = BAD_SURFACES[what]
+    stl = tmp_path / "tool.stl"
+    if section is not None:
+        write_bar(stl, section, *ends)
+    case = copy_tutorial(
+        tmp_path / "case", **(SHORT | entries), toolSurface=stl
+    )
+    output = run(case, "python", "-m", "bolus_validation.cutting", ok=False)
+    output = " ".join(output.split())
+    assert [word for word in words if word not in output] == [], output
+    assert "Traceback" not in output
+
+
+def test_a_section_that_changes_along_the_tool_is_told(tmp_path):
+    low, high = ring(16, 2.5e-3), ring(16, 2e-3)
+    triangles = []
+    for i in range(16):
+        a0, b0 = ((*low[j % 16], -0.02) for j in (i, i + 1))
+        a1, b1 = ((*high[j % 16], 0.02) for j in (i, i + 1))
+        triangles += [(a0, b0, b1), (a0, b1, a1)]
+        triangles += [((0, 0, -0.02), b0, a0), ((0, 0, 0.02), a1, b1)]
+    write_stl(tmp_path / "cone.stl", triangles)
+    with pytest.raises(SystemExit, match="changes along z"):
+        outline(tmp_path / "cone.stl", 0.03)
