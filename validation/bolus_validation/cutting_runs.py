@@ -7,7 +7,7 @@ tutorials have not changed; a run that was stopped goes on. SI units.
 """
 
 import csv
-import re
+import os
 from pathlib import Path
 
 import matplotlib
@@ -32,9 +32,12 @@ from bolus_validation.studies import (  # noqa: E402
 # Of the tutorials: what is set to these is the same run
 DEFAULTS = {"speed": 2.5e-3, "law": "viscoplastic"}
 
-# Measured curves, if there are any: CSV files <cylinder2D|wire2D>_<speed in
-# mm/s>.csv of rows delta [mm], F [N]
-MEASURED = ROOT / "validation" / "data" / "cutting"
+# Measured curves, if there are any: see measured_curve
+MEASURED = Path(
+    os.environ.get(
+        "BOLUSFOAM_MEASURED", ROOT / "validation" / "data" / "cutting"
+    )
+)
 
 
 # --- runs --------------------------------------------------------------------
@@ -192,11 +195,18 @@ def spread(run: Run, depth: float) -> float:
 # --- pictures ----------------------------------------------------------------
 
 
-def curves(folder: Path, runs: dict, name: str = "curves.png") -> str:
-    """F/(T d) over delta/H, like the paper's Fig. 7."""
+def curves(
+    folder: Path, runs: dict, measured=None, name: str = "curves.png"
+) -> str:
+    """F/(T d) over delta/H, like the paper's Fig. 7.
+
+    measured    curves by label: delta/H [-], F/(T d) [Pa]
+    """
     figure, axis = plt.subplots(figsize=(7, 4.8), layout="constrained")
     for label, run in runs.items():
         axis.plot(run.depth, run.stress / 1e3, lw=1, label=label)
+    for label, (depth, stress) in (measured or {}).items():
+        axis.plot(depth, stress / 1e3, ".", ms=3, label=label)
     axis.set(xlabel="delta / H [-]", ylabel="F / (T d) [kPa]")
     axis.set(xlim=(0, None), ylim=(0, None))
     axis.legend(fontsize=7)
@@ -241,22 +251,65 @@ def contours(folder: Path, runs: dict, fields, depth: float, name: str) -> str:
     return name
 
 
-def overlay(found: Findings, folder: Path, tutorial: str, runs: dict) -> None:
-    """Score the runs against measured curves, where such files are."""
+# --- measured curves ---------------------------------------------------------
+
+
+def measured_curve(path: Path) -> tuple[np.ndarray, np.ndarray]:
+    """A measured curve: way of the tool into the block [m], force [N] (n,).
+
+    CSV: a row of names, then rows delta [mm], F [N], delta increasing.
+    Raises ValueError, which names the row, for anything else.
+    """
+    with open(path, newline="") as lines:
+        rows = [(n, row) for n, row in enumerate(csv.reader(lines), 1) if row]
+    found = []
+    for n, row in rows[1:]:
+        try:
+            delta, force = map(float, row)
+        except ValueError:
+            delta = force = np.nan
+        if not np.isfinite(delta + force):
+            raise ValueError(
+                f"{path}, row {n}: {','.join(row)}; valid are two numbers, "
+                "delta [mm] and F [N], below a row of names"
+            )
+        if found and delta <= found[-1][0]:
+            raise ValueError(
+                f"{path}, row {n}: delta {delta:g} mm after {found[-1][0]:g}; "
+                "valid are increasing values"
+            )
+        found.append((delta, force))
+    if len(found) < 2:
+        raise ValueError(f"{path}: {len(found)} rows; valid are two or more")
+    way, force = np.array(found).T
+    return 1e-3 * way, force
+
+
+def overlay(found: Findings, tutorial: str, runs: dict) -> dict:
+    """Score runs by speed [m/s] against measured curves, where such files are.
+
+    They are <cylinder2D|wire2D>_<speed in mm/s>.csv in MEASURED. Returns them
+    for curves().
+    """
+    drawn = {}
     for speed, run in runs.items():
         path = MEASURED / f"{tutorial}_{1e3 * speed:g}.csv"
         if not path.exists():
             continue
-        with open(path) as lines:
-            rows = [
-                tuple(map(float, row))
-                for row in csv.reader(lines)
-                if row and re.match(r"\s*[-+.\d]", row[0])
-            ]
-        way, force = np.array(rows).T
-        ours = np.interp(1e-3 * way, run.travel, run.table["axial"])
+        p = run.parameters
+        way, force = measured_curve(path)
+        drawn[f"measured, {1e3 * speed:g} mm/s"] = (
+            way / p.height,
+            force / (p.thickness * p.diameter),
+        )
+        shared = way <= run.travel[-1] - p.startGap
+        ours = np.interp(
+            way[shared] + p.startGap, run.travel, run.table["axial"]
+        )
         found.row(
             f"rms distance to {path.name} over its largest force",
             "-",
-            float(np.sqrt(np.mean((ours - force) ** 2)) / force.max()),
+            float(np.sqrt(np.mean((ours - force[shared]) ** 2)) / force.max()),
+            remark=f"{shared.sum()} of {len(way)} points",
         )
+    return drawn

@@ -130,9 +130,10 @@ def cylinder(folder: Path, quick: bool) -> Findings:
         2.0,
         remark="paper: about 2/s",
     )
-    overlay(found, folder, "cylinder2D", runs)
     found.picture = curves(
-        folder, {f"{1e3 * v:g} mm/s": r for v, r in runs.items()}
+        folder,
+        {f"{1e3 * v:g} mm/s": r for v, r in runs.items()},
+        overlay(found, "cylinder2D", runs),
     )
     return found
 
@@ -380,8 +381,7 @@ def wire(folder: Path, quick: bool) -> Findings:
             remark="beyond 1/s the table saturates, the fit goes on: the "
             "paper's curves are too low there",
         )
-    overlay(found, folder, "wire2D", runs)
-    found.picture = curves(folder, laws)
+    found.picture = curves(folder, laws, overlay(found, "wire2D", runs))
     return found
 
 

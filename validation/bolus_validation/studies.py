@@ -176,12 +176,13 @@ def _hash(files) -> str:
 
 
 # What results depend on: the solver, its libraries, the tutorials and the
-# script that makes meshes for some of them
+# scripts that make meshes for some of them
 SOURCES = (
     "src",
     "applications",
     "tutorials",
     "validation/bolus_validation/cutting.py",
+    "validation/bolus_validation/tool_surface.py",
 )
 
 

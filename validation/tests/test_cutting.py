@@ -9,7 +9,7 @@ import shutil
 
 import numpy as np
 import pytest
-from bolus_validation import cutting
+from bolus_validation import cutting, cutting_runs
 from bolus_validation.cutting_cases import (
     ROUGH,
     copy_tutorial,
@@ -18,9 +18,11 @@ from bolus_validation.cutting_cases import (
     force,
     prepare,
 )
+from bolus_validation.cutting_runs import Run, curves, measured_curve, overlay
 from bolus_validation.fields import Case, read_mesh
 from bolus_validation.results import read_table
 from bolus_validation.specimens import replace, run_case, solve
+from bolus_validation.studies import Findings
 from bolus_validation.synthetic import run, run_parallel
 from bolus_validation.tool_surface import outline
 
@@ -241,6 +243,47 @@ def test_layers_along_the_tool_give_a_solid_mesh(folder):
     assert volume == pytest.approx(
         0.5 * p.width * p.height * p.thickness, rel=1e-9
     )
+
+
+# --- measured curves ---------------------------------------------------------
+
+
+def test_measured_curves_are_overlaid_and_scored(
+    pressed, tmp_path, monkeypatch
+):
+    # One that is 10 % of the largest force above ours, and goes on beyond
+    run = Run(pressed["coulomb"])
+    way = np.array([0.5, 1, 1.5, 2, 99])
+    force = np.interp(1e-3 * way, run.travel, run.table["axial"])
+    force += 0.1 * force.max() / 0.9
+    rows = "".join(f"{x},{f:.9g}\n" for x, f in zip(way, force, strict=True))
+    (tmp_path / "cylinder2D_2.5.csv").write_text("delta,F\n" + rows)
+    monkeypatch.setattr(cutting_runs, "MEASURED", tmp_path)
+
+    found = Findings()
+    drawn = overlay(found, "cylinder2D", {2.5e-3: run, 1e-2: run})
+    assert [r.remark for r in found.rows] == ["4 of 5 points"]
+    assert found.rows[0].value == pytest.approx(0.1, rel=1e-6)
+    ((label, (depth, stress)),) = drawn.items()
+    assert label == "measured, 2.5 mm/s"
+    assert depth[0] == pytest.approx(0.5 / 20)
+    assert stress[0] == pytest.approx(force[0] / 1.5e-4)
+    curves(tmp_path, {"ours": run}, drawn)
+    assert (tmp_path / "curves.png").stat().st_size > 10_000
+
+
+@pytest.mark.parametrize(
+    "text, words",
+    [
+        ("delta,F\n1,2\n2,x\n", "row 3: 2,x; valid are two numbers"),
+        ("delta,F\n1,2\n1,3\n", "row 3: delta 1 mm after 1"),
+        ("1,2\n", "0 rows"),
+    ],
+)
+def test_a_bad_measured_curve_is_told(tmp_path, text, words):
+    (tmp_path / "bad.csv").write_text(text)
+    with pytest.raises(ValueError, match=words):
+        measured_curve(tmp_path / "bad.csv")
 
 
 # --- bad input ---------------------------------------------------------------
