@@ -64,6 +64,18 @@ def prepare(case: Path, tutorial: str = "cylinder2D", **entries) -> Path:
     return case
 
 
+def perfectly_plastic(case: Path, E: float, nu: float, stress: float) -> None:
+    """Give a case one flow stress [Pa] at all rates, instead of its law."""
+    replace(
+        case / "constant" / "bolusProperties",
+        r"\n#include \"\$BOLUSFOAM_DIR[^\n]*",
+        f"\nrho 1100;\nelasticity {{ E {E:.12g}; nu {nu:.12g}; }}\n"
+        "flowStress { type tabulated; table "
+        f"((0 {stress:.12g}) (1 {stress:.12g})); }}\n"
+        "damage { type none; }\n",
+    )
+
+
 def force(case: Path) -> Table:
     """The table of toolForce."""
     return read_table(case, "toolForce")
