@@ -103,7 +103,7 @@ def limit(folder: Path, quick: bool) -> Findings:
     "A",
     "Cylinder and a perfectly plastic block: finite elements beside ours",
     "CalculiX: Lagrangian, plane strain, eight-node elements (see "
-    "finite_elements); as far as it comes; 3 % from 0.3 mm on",
+    "finite_elements); as far as it comes; 3 %",
 )
 def cylinder_fe(folder: Path, quick: bool) -> Findings:
     found = Findings()
@@ -147,7 +147,7 @@ def cylinder_fe(folder: Path, quick: bool) -> Findings:
         axis.plot(*ours[n], lw=1, label=f"ours, {n} cells per diameter")
     way, force = theirs[0.25]
     found.row("CalculiX: travel", "mm", way[-1])
-    for at in (0.3, 0.4, 0.5, 0.6, 0.8, 1.0, 1.5, 2.0):
+    for at in (0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.8, 1.0, 1.5, 2.0):
         if at > way[-1] + 1e-6:
             break
         expected = float(np.interp(at, way, force))
@@ -166,9 +166,9 @@ def cylinder_fe(folder: Path, quick: bool) -> Findings:
     figure.savefig(folder / "force.png", dpi=120)
     plt.close(figure)
     found.remarks.append(
-        "Below 0.3 mm our force is the higher, by up to 4e-4 N/mm: contact "
-        "there is narrower than our cells, and that of CalculiX gives way by a "
-        "stiffness."
+        "Early our force is the higher, by some 4e-4 N/mm. What differs there: "
+        "our contact is a few cells wide, that of CalculiX gives way by a "
+        "stiffness. Neither was varied."
     )
     found.picture = "force.png"
     return found
@@ -498,7 +498,7 @@ def wire_j(folder: Path, quick: bool) -> Findings:
 )
 def solid_solver(folder: Path, quick: bool) -> Findings:
     found = Findings()
-    coarse = {"cellsThrough": 4, "travel": 5e-4}
+    coarse = {"cellsThrough": 4, "travel": 5e-4, "travelStep": 2e-4}
     left = {
         "system/fvSolution:bolus.petscOptions": (
             '"-bolus_velocity_ksp_pc_side left"'

@@ -126,7 +126,7 @@ def deck(b: Block) -> str:
     ring[..., 1] += b.height + radius
     tool = _Grid(ring, block.number.max() + 1, block.element.max() + 1)
 
-    # The part of the block's top and side that the tool may reach
+    # The part of the block's top that the tool may reach
     near = block.element[x[::2][:-1] < 1.5 * b.diameter, -1]
     stiffness = 30 * b.E / b.size
     return (

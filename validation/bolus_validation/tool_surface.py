@@ -57,11 +57,8 @@ def cross(a: np.ndarray, b: np.ndarray) -> np.ndarray:
 
 
 def section(triangles: np.ndarray, z: float) -> np.ndarray:
-    """Segments (n, 2, 2) in which a plane of constant z cuts a surface.
-
-    The surface is to their right: they go around it counter-clockwise where
-    its triangles face outwards.
-    """
+    """Segments (n, 2, 2) in which a plane of constant z cuts a surface; their
+    ends in no order."""
     found = []
     for triangle in triangles[
         (triangles[:, :, 2].min(axis=1) < z)
@@ -112,7 +109,8 @@ def outline(path: Path, depth: float) -> np.ndarray:
     size = np.linalg.norm(middle, axis=2).max()
 
     # A ray just beside each corner, on either side, and through the axis
-    angles = np.arctan2(middle[:, 0, 1], middle[:, 0, 0])
+    ends = middle.reshape(-1, 2)
+    angles = np.arctan2(ends[:, 1], ends[:, 0])
     probes = np.concatenate([angles - 1e-5, angles + 1e-5])
     for angle in probes:
         seen = [reach(cut, a) for cut in cuts for a in (angle, np.pi - angle)]
@@ -135,13 +133,16 @@ def outline(path: Path, depth: float) -> np.ndarray:
                 f"{radii[1]:g} m on its sides; valid are tools symmetric in x"
             )
 
-    right = middle[:, 0][middle[:, 0, 0] > 1e-6 * size]
-    right = right[np.argsort(np.arctan2(right[:, 1], right[:, 0]))]
-    ends = [
+    right = ends[np.argsort(angles)]
+    right = right[right[:, 0] > 1e-6 * size]
+    # Each is the end of two segments
+    apart = np.linalg.norm(np.diff(right, axis=0), axis=1) > 1e-6 * size
+    right = right[[True, *apart]]
+    middle_ends = [
         (0.0, sign * reach(middle, sign * (0.5 * np.pi - 1e-9))[0])
         for sign in (-1, 1)
     ]
-    points = np.array([ends[0], *right, ends[1]])
+    points = np.array([middle_ends[0], *right, middle_ends[1]])
     # Without those on straight lines, of which the triangulation has many
     step = np.diff(points, axis=0)
     turn = cross(step[:-1], step[1:])

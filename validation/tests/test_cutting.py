@@ -471,6 +471,19 @@ def test_the_surface_of_a_cylinder_gives_the_mesh_of_the_cylinder(
     assert points[1] == pytest.approx(points[0], abs=1e-6)
 
 
+def test_the_order_of_corners_in_a_file_does_not_matter(tmp_path):
+    stl = write_bar(tmp_path / "wedge.stl", WEDGE)
+    triangles = cutting.check_surface(stl)
+    right = 1e-3 * np.array([(0, -4), (2.5, 0), (2.5, 4), (0, 4)])
+    for shift in range(3):
+        turned = [
+            np.roll(corners, (i + shift) % 3, axis=0)
+            for i, corners in enumerate(triangles)
+        ]
+        write_stl(stl, turned)
+        assert outline(stl, 0.03) == pytest.approx(right, abs=1e-9)
+
+
 def test_a_wedge_is_meshed_with_its_edges_and_cuts(folder, tmp_path):
     stl = write_bar(tmp_path / "wedge.stl", WEDGE)
     case = prepare(folder / "wedge", **SHORT, toolSurface=stl)

@@ -173,10 +173,13 @@ void Foam::coupledSystem::assemble(Vec f, condensedTangent* J) const
         {
             const auto scale = [&](scalarField& block)
             {
-                forAll(block, k)
+                for (label i = 0; i <= n; ++i)
                 {
-                    block[k] *=
-                        rowScale[k / (n + 1)] * (k % (n + 1) < n ? U0_ : P0_);
+                    for (label j = 0; j <= n; ++j)
+                    {
+                        block[i * (n + 1) + j] *=
+                            rowScale[i] * (j < n ? U0_ : P0_);
+                    }
                 }
             };
             scale(Jc);
