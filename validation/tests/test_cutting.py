@@ -501,7 +501,8 @@ def test_a_wedge_is_meshed_with_its_edges_and_cuts(folder, tmp_path):
     tool = force(case)["axial"]
     platen = read_table(case, "platenForce", "contactForce")["axial"]
     assert tool[-1] > 0.5
-    assert platen == pytest.approx(tool, rel=0, abs=1e-3 * tool.max())
+    # Found 1.3e-4
+    assert platen == pytest.approx(tool, rel=0, abs=5e-4 * tool.max())
 
 
 HOURGLASS = 1e-3 * np.array(

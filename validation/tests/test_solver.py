@@ -263,7 +263,7 @@ def test_multigrid_gives_the_answer_of_the_direct_solver(
 
 
 def test_a_failed_linear_solution_costs_its_step_alone(folder):
-    # Found 8 steps rejected
+    # Found 8 steps rejected; the shorter ones move the force by 0.26 %
     forces = {}
     for limit in (500, 18):
         case = pressed_block(
@@ -276,7 +276,7 @@ def test_a_failed_linear_solution_costs_its_step_alone(folder):
         log = run(case, "bolusFoam")
         forces[limit] = wall_force(case)[-1]
         assert ("DIVERGED_LINEAR_SOLVE" in log) == (limit == 18)
-    assert forces[18] == pytest.approx(forces[500], rel=0.02)
+    assert forces[18] == pytest.approx(forces[500], rel=0.01)
 
 
 def petsc_matrices(path):
