@@ -141,10 +141,18 @@ MUTATIONS = (
     Mutation(
         "multigrid preconditioned by the threshold of friction",
         SOLVE,
-        "J->leaveOut(c, threshold, rows, cols);",
+        "J->leaveOut(c, tangent.threshold, rows, cols);",
         "",
         COUPLED,
         "test_solver.py -k not_preconditioned_by_the_threshold",
+    ),
+    Mutation(
+        "closing voids extrapolated from where they are",
+        SOLVE,
+        "J->extrapolate(c, weight_[c] * tangent.excess);",
+        "",
+        COUPLED,
+        "test_cutting.py -k closing_voids",
     ),
     Mutation(
         "damage at twice the plastic strain",

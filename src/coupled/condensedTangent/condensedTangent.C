@@ -232,7 +232,7 @@ PetscErrorCode Foam::condensedTangent::solve(Vec f, Vec x, bool& solved) const
     scalarField g(D_.size());
     {
         const vecValues values(f);
-        forAll(g, c) g[c] = values[n + c];
+        forAll(g, c) g[c] = values[n + c] + excess_[c];
     }
     VecSet(right_, 0);
     addB(-g / D_, right_);
@@ -314,6 +314,7 @@ Foam::condensedTangent::condensedTangent(
     B_(space.cellDofs().size(), Zero),
     C_(space.cellDofs().size(), Zero),
     D_(space.mesh().nCells(), 1.0),
+    excess_(space.mesh().nCells(), Zero),
     iterative_(iterative),
     scatter_(scatter),
     local_(local),
@@ -387,6 +388,7 @@ void Foam::condensedTangent::clear(const boolList& cells)
     B_ = 0;
     C_ = 0;
     D_ = 1;
+    excess_ = 0;
     setRigidMotions();
 }
 

@@ -267,6 +267,12 @@ Foam::coupledSystem::coupledSystem(
         nonNegative,
         1e-3
     );
+    closingPressure_ = read.number(
+        "closingPressure",
+        "to which one iteration may close a void [Pa]",
+        nonNegative,
+        0
+    );
     hourglass_ =
         read.number("hourglass", "hourglass control [-]", nonNegative, 0.05);
     overfillTime_ = read.number(

@@ -167,13 +167,37 @@ bool Foam::coupledSystem::evaluateContact(
 }
 
 
+void Foam::coupledSystem::closeVoid(
+    const label c,
+    const cellResult& r,
+    scalar& slope,
+    scalar& excess
+) const
+{
+    slope = r.drdpv;
+    excess = 0;
+    if (!secant_ || r.growth >= 0) return;
+
+    const scalar pv = void_.closingPressure(
+        -r.growth, closingPressure_, a_[c], room_[c], phi_[c], deltaT_
+    );
+    if (pv <= 3 * max(r.pv, scalar(0))) return;
+
+    scalar rate;
+    void_.rate(
+        pv, a_[c], room_[c], phi_[c], deltaT_, cohesion_[c], rate, slope
+    );
+    excess = r.growth + rate + slope * (r.pv - pv) - r.residual;
+}
+
+
 void Foam::coupledSystem::assembleCell(
     const label c,
     DynamicList<scalar>& R,
-    scalarField* J,
-    scalarField& threshold
+    cellTangent* tangent
 ) const
 {
+    scalarField* J = tangent ? &tangent->J : nullptr;
     const label start = space_.cellStart()[c];
     const label n = space_.cellStart()[c + 1] - start;
     const label nd = space_.nd();
@@ -193,6 +217,9 @@ void Foam::coupledSystem::assembleCell(
     // Derivatives in the direction of each unknown; the last is the pressure
     if (J)
     {
+        scalar slope;
+        closeVoid(c, r, slope, tangent->excess);
+
         J->setSize((n + 1) * (n + 1));
         symG_.setSize(n);
         dDev_.setSize(n + 1);
@@ -217,7 +244,7 @@ void Foam::coupledSystem::assembleCell(
             dDev_[j] = (a * V) * dS_[j];
             if (!isP) dDev_[j] += (2 * V * eta_[c]) * dev(symG_[j]);
 
-            (*J)[n * (n + 1) + j] = dGrowth + r.drdpv * dPv_[j];
+            (*J)[n * (n + 1) + j] = dGrowth + slope * dPv_[j];
         }
         for (label i = 0; i < n; ++i)
         {
@@ -256,7 +283,7 @@ void Foam::coupledSystem::assembleCell(
     }
 
     // Friction on the cell's wall faces
-    threshold.clear();
+    if (tangent) tangent->threshold.clear();
     forAll(contactFaces_[c], fi)
     {
         contact k;
@@ -303,6 +330,7 @@ void Foam::coupledSystem::assembleCell(
                 }
                 if (dpn == 0) continue;
 
+                scalarField& threshold = tangent->threshold;
                 if (threshold.empty()) threshold.setSize((n + 1) * (n + 1), 0);
                 for (label j = 0; j <= n; ++j)
                 {

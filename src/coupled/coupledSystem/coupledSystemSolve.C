@@ -135,8 +135,7 @@ void Foam::coupledSystem::assemble(Vec f, condensedTangent* J) const
     if (J) J->clear(solved_);
 
     DynamicList<scalar> R;
-    scalarField Jc;
-    scalarField threshold;
+    cellTangent tangent;
     DynamicList<PetscInt> rows;
     DynamicList<PetscInt> cols;
     DynamicList<scalar> rowScale;
@@ -144,7 +143,7 @@ void Foam::coupledSystem::assemble(Vec f, condensedTangent* J) const
     forAll(pCell_, c)
     {
         if (!solved_[c]) continue;
-        assembleCell(c, R, J ? &Jc : nullptr, threshold);
+        assembleCell(c, R, J ? &tangent : nullptr);
 
         // Scaled rows; those of fixed components are negative: left out.
         // The residual's rows are those of x_, the tangent's of velocities
@@ -182,12 +181,13 @@ void Foam::coupledSystem::assemble(Vec f, condensedTangent* J) const
                     }
                 }
             };
-            scale(Jc);
-            J->add(c, Jc, rows, cols);
-            if (threshold.size())
+            scale(tangent.J);
+            J->add(c, tangent.J, rows, cols);
+            J->extrapolate(c, weight_[c] * tangent.excess);
+            if (tangent.threshold.size())
             {
-                scale(threshold);
-                J->leaveOut(c, threshold, rows, cols);
+                scale(tangent.threshold);
+                J->leaveOut(c, tangent.threshold, rows, cols);
             }
         }
     }
@@ -300,6 +300,10 @@ Foam::coupledSystem::jacobianFunction(SNES, Vec x, Mat, Mat, void* ctx)
         addProfiling(tangent, "tangent");
         system.assemble(nullptr, &*system.tangent_);
     }
+    else
+    {
+        system.tangent_->reuse();
+    }
 
     // As accurate as this iteration can make use of (Eisenstat and Walker
     // 1996, choice 2)
@@ -359,8 +363,8 @@ PetscErrorCode Foam::coupledSystem::convergedFunction(
 
 SNESConvergedReason Foam::coupledSystem::newton()
 {
-    // The secant of friction (see assembleCell) may lead uphill; then the
-    // tangent takes over from there, and so on
+    // The secant of friction (see assembleCell) and closeVoid may lead uphill;
+    // then the tangent takes over from there, and so on
     SNESConvergedReason reason;
     PetscInt iterations;
     secant_ = true;
