@@ -177,19 +177,24 @@ def _hash(files) -> str:
 
 # What results depend on: the solver, its libraries, the tutorials and the
 # scripts that make meshes for some of them
-SOURCES = (
-    "src",
-    "applications",
-    "tutorials",
-    "validation/bolus_validation/cutting.py",
-    "validation/bolus_validation/tool_surface.py",
-)
+SOLVER = ("src", "applications", "tutorials/common")
+SET_UP = {
+    "cutting": (
+        "validation/bolus_validation/cutting.py",
+        "validation/bolus_validation/tool_surface.py",
+    )
+}
+FAMILIES = ("cutting", "gastric", "rheology")
 
 
-def solver_hash() -> str:
-    """Hash of the sources of the solver and of the tutorials."""
+def solver_hash(families=FAMILIES) -> str:
+    """Hash of the sources of the solver and of these families of tutorials."""
     files = []
-    for name in SOURCES:
+    for name in (
+        *SOLVER,
+        *(f"tutorials/{family}" for family in families),
+        *(name for family in families for name in SET_UP.get(family, ())),
+    ):
         path = ROOT / name
         files += sorted(path.rglob("*")) if path.is_dir() else [path]
     return _hash(
@@ -213,7 +218,9 @@ def kept_run(tutorial: str, page: str, ranks: int = 1, **settings) -> Path:
     """
     options = [f"{name}={number}" for name, number in sorted(settings.items())]
     what = tutorial + str(options) + (f" -np {ranks}" if ranks > 1 else "")
-    key = hashlib.sha256((solver_hash() + what).encode())
+    key = hashlib.sha256(
+        (solver_hash([Path(tutorial).parts[0]]) + what).encode()
+    )
     folder = ROOT / "run" / "validate" / page / "runs"
     folder.mkdir(parents=True, exist_ok=True)
     case = folder / f"{Path(tutorial).name}-{key.hexdigest()[:16]}"
