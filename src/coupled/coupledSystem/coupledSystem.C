@@ -245,6 +245,7 @@ Foam::coupledSystem::coupledSystem(
     rubs_(false),
     lagged_(false),
     secant_(true),
+    eliminate_(true),
     q_(space_.nd() * space_.nNodes(), Zero),
     pCell_(mesh_.nCells(), Zero)
 {
@@ -287,6 +288,12 @@ Foam::coupledSystem::coupledSystem(
         0.1
     );
     const entryReader::interval fraction = {0, true, 1, true};
+    eliminateBelow_ = read.number(
+        "eliminateBelow",
+        "alpha below which pressure is found cell by cell [-]",
+        fraction,
+        0
+    );
     interfaceJump_ = read.number(
         "interfaceJump",
         "of alpha at an interface [-]",

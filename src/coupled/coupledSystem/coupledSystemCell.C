@@ -167,6 +167,33 @@ bool Foam::coupledSystem::evaluateContact(
 }
 
 
+void Foam::coupledSystem::solvePressure(const label c)
+{
+    scalar lower = -GREAT;
+    scalar upper = GREAT;
+    for (label i = 0; i < 50; ++i)
+    {
+        cellResult r;
+        evaluate(c, r);
+        if (mag(r.residual) < 1e-3 * tolerance_) return;
+
+        // The residual grows with the pressure
+        (r.residual < 0 ? lower : upper) = pCell_[c];
+
+        const scalar dGrowth = a_[c] / (law_.elastic().K() * deltaT_);
+        scalar dPv = 1;
+        if (a_[c] > SMALL)
+        {
+            dPv -= N_[c] && law_.tangent(-dGrowth * tensor(N_[c]), r.r);
+        }
+        scalar p = pCell_[c] - r.residual / (dGrowth + r.drdpv * dPv);
+        if (!(p > lower && p < upper)) p = 0.5 * (lower + upper);
+        if (p == pCell_[c]) return;
+        pCell_[c] = p;
+    }
+}
+
+
 void Foam::coupledSystem::closeVoid(
     const label c,
     const cellResult& r,

@@ -124,6 +124,12 @@ void Foam::coupledSystem::gather(Vec x)
     forAll(q_, j) q_[j] = U0_ * v[i++];
     forAll(pCell_, c) pCell_[c] = P0_ * v[i++];
     VecRestoreArrayRead(local_, &v);
+
+    if (!eliminate_) return;
+    forAll(pCell_, c)
+    {
+        if (solved_[c] && a_[c] < eliminateBelow_) solvePressure(c);
+    }
 }
 
 
@@ -441,6 +447,7 @@ Foam::scalar Foam::coupledSystem::checkTangent(const scalar deltaT)
     VecDuplicate(x_, d.set());
     VecDuplicate(x_, Jd.set());
 
+    eliminate_ = false;
     gather(x_);
     qLast_ = q_;
     assemble(nullptr, &*tangent_);
@@ -469,6 +476,7 @@ Foam::scalar Foam::coupledSystem::checkTangent(const scalar deltaT)
         worst = max(worst, scalar(difference / norm));
     }
     PetscRandomDestroy(&random);
+    eliminate_ = true;
     return worst;
 }
 
