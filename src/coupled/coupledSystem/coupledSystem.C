@@ -288,10 +288,10 @@ Foam::coupledSystem::coupledSystem(
         0.1
     );
     const entryReader::interval fraction = {0, true, 1, true};
-    eliminateBelow_ = read.number(
-        "eliminateBelow",
-        "alpha below which pressure is found cell by cell [-]",
-        fraction,
+    eliminateRoom_ = read.number(
+        "eliminateRoom",
+        "from which on pressure is found cell by cell [-]",
+        nonNegative,
         0
     );
     interfaceJump_ = read.number(

@@ -125,10 +125,10 @@ void Foam::coupledSystem::gather(Vec x)
     forAll(pCell_, c) pCell_[c] = P0_ * v[i++];
     VecRestoreArrayRead(local_, &v);
 
-    if (!eliminate_) return;
+    if (!eliminate_ || eliminateRoom_ == 0) return;
     forAll(pCell_, c)
     {
-        if (solved_[c] && a_[c] < eliminateBelow_) solvePressure(c);
+        if (solved_[c] && room_[c] > eliminateRoom_ * a_[c]) solvePressure(c);
     }
 }
 
