@@ -152,7 +152,15 @@ MUTATIONS = (
         "J->extrapolate(c, weight_[c] * tangent.excess);",
         "",
         COUPLED,
-        "test_cutting.py -k closing_voids",
+        "test_cutting.py -k shortcuts",
+    ),
+    Mutation(
+        "pressure of cells with room not eliminated",
+        SOLVE,
+        "if (!eliminate_ || eliminateRoom_ == 0) return;",
+        "return;",
+        COUPLED,
+        "test_cutting.py -k shortcuts",
     ),
     Mutation(
         "damage at twice the plastic strain",
