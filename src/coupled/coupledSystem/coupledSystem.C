@@ -247,7 +247,8 @@ Foam::coupledSystem::coupledSystem(
     secant_(true),
     eliminate_(true),
     q_(space_.nd() * space_.nNodes(), Zero),
-    pCell_(mesh_.nCells(), Zero)
+    pCell_(mesh_.nCells(), Zero),
+    shift_(mesh_.nCells(), Zero)
 {
     entryReader read(dict);
     const entryReader::interval& positive = entryReader::positive;

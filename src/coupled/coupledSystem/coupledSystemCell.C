@@ -169,13 +169,14 @@ bool Foam::coupledSystem::evaluateContact(
 
 void Foam::coupledSystem::solvePressure(const label c)
 {
+    const scalar given = pCell_[c];
     scalar lower = -GREAT;
     scalar upper = GREAT;
+    cellResult r;
     for (label i = 0; i < 50; ++i)
     {
-        cellResult r;
         evaluate(c, r);
-        if (mag(r.residual) < 1e-3 * tolerance_) return;
+        if (mag(r.residual) < 1e-3 * tolerance_) break;
 
         // The residual grows with the pressure
         (r.residual < 0 ? lower : upper) = pCell_[c];
@@ -188,8 +189,14 @@ void Foam::coupledSystem::solvePressure(const label c)
         }
         scalar p = pCell_[c] - r.residual / (dGrowth + r.drdpv * dPv);
         if (!(p > lower && p < upper)) p = 0.5 * (lower + upper);
-        if (p == pCell_[c]) return;
+        if (p == pCell_[c]) break;
         pCell_[c] = p;
+    }
+
+    // Where the room is used up it would rise without bounds
+    if (r.pv > closingPressure_)
+    {
+        pCell_[c] = max(given, pCell_[c] - (r.pv - closingPressure_));
     }
 }
 

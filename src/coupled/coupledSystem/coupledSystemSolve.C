@@ -122,8 +122,9 @@ void Foam::coupledSystem::gather(Vec x)
     VecGetArrayRead(local_, &v);
     label i = 0;
     forAll(q_, j) q_[j] = U0_ * v[i++];
-    forAll(pCell_, c) pCell_[c] = P0_ * v[i++];
+    forAll(pCell_, c) pCell_[c] = P0_ * v[i++] + shift_[c];
     VecRestoreArrayRead(local_, &v);
+    pGiven_ = pCell_;
 
     if (!eliminate_ || eliminateRoom_ == 0) return;
     forAll(pCell_, c)
@@ -298,6 +299,7 @@ Foam::coupledSystem::jacobianFunction(SNES, Vec x, Mat, Mat, void* ctx)
 {
     coupledSystem& system = *static_cast<coupledSystem*>(ctx);
     system.gather(x);
+    system.shift_ += system.pCell_ - system.pGiven_;
 
     // With the same tangent the next iteration gains about what the last one
     // did: where that is enough, it saves a factorisation
@@ -414,6 +416,7 @@ const Foam::coupledSystem::report& Foam::coupledSystem::solve(
     forAll(solved_, c) v[i++] = solved_[c] ? state_.pStart[c] / P0_ : 0;
     VecRestoreArray(x_, &v);
 
+    shift_ = 0;
     gather(x_);
     qLast_ = q_;
     report_.iterations = 0;
