@@ -215,6 +215,7 @@ void Foam::coupledSystem::closeVoid(
     const scalar pv = void_.closingPressure(
         -r.growth, closingPressure_, a_[c], room_[c], phi_[c], deltaT_
     );
+    // Nearer than that, the tangent leads there in one or two iterations
     if (pv <= 3 * max(r.pv, scalar(0))) return;
 
     scalar rate;

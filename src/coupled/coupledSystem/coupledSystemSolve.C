@@ -124,9 +124,9 @@ void Foam::coupledSystem::gather(Vec x)
     forAll(q_, j) q_[j] = U0_ * v[i++];
     forAll(pCell_, c) pCell_[c] = P0_ * v[i++] + shift_[c];
     VecRestoreArrayRead(local_, &v);
-    pGiven_ = pCell_;
 
     if (!eliminate_ || eliminateRoom_ == 0) return;
+    pGiven_ = pCell_;
     forAll(pCell_, c)
     {
         if (solved_[c] && room_[c] > eliminateRoom_ * a_[c]) solvePressure(c);
@@ -299,7 +299,10 @@ Foam::coupledSystem::jacobianFunction(SNES, Vec x, Mat, Mat, void* ctx)
 {
     coupledSystem& system = *static_cast<coupledSystem*>(ctx);
     system.gather(x);
-    system.shift_ += system.pCell_ - system.pGiven_;
+    if (system.eliminateRoom_ > 0)
+    {
+        system.shift_ += system.pCell_ - system.pGiven_;
+    }
 
     // With the same tangent the next iteration gains about what the last one
     // did: where that is enough, it saves a factorisation
@@ -450,8 +453,9 @@ Foam::scalar Foam::coupledSystem::checkTangent(const scalar deltaT)
     VecDuplicate(x_, d.set());
     VecDuplicate(x_, Jd.set());
 
-    eliminate_ = false;
     gather(x_);
+    if (eliminateRoom_ > 0) shift_ += pCell_ - pGiven_;
+    eliminate_ = false;
     qLast_ = q_;
     assemble(nullptr, &*tangent_);
 
