@@ -8,7 +8,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).parents[1]))
 
 # The studies register themselves
-from bolus_validation import gastric_study  # noqa: E402, F401
+from bolus_validation import gastric_causes, gastric_study  # noqa: E402, F401
 from bolus_validation.studies import command  # noqa: E402
 
 if __name__ == "__main__":

@@ -1,0 +1,213 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Copyright (C) 2026 the bolusFoam developers
+"""Why case A differs from the paper: one assumption changed at a time.
+
+The paper prints neither the stomach's radius nor how its bolus is held, and its
+contact, its fracture and its density are those of another code. Each row is
+case A on 1 mm with one of these changed; what the paper's text says of it is
+beside it. The runs (a minute or two each) are kept in
+run/validate/gastric/runs.
+"""
+
+from pathlib import Path
+
+import matplotlib
+
+matplotlib.use("Agg")
+import matplotlib.pyplot as plt  # noqa: E402
+import numpy as np  # noqa: E402
+
+from bolus_validation.motility import PROFILE  # noqa: E402
+from bolus_validation.report import CASE_A, Run  # noqa: E402
+from bolus_validation.studies import Findings, kept_run, study  # noqa: E402
+
+COARSE = {"resolution": 1e-3, "pylorusRefinement": 2.5}
+
+# Radii [mm] at these x [mm], between 210 and 250, of other stomachs that meet
+# what the text says as well: 6 mm at 250 mm, room for the bolus
+WIDE = {220: 15.4, 230: 13.9, 240: 11.5, 245: 9.3}
+NARROW = {210: 15.2, 220: 13.7, 230: 12.0, 240: 8.6, 245: 7.0}
+# Radius [mm] upstream, 30 to 180 mm, against the tutorial's: for 0.88 L
+UPSTREAM = {"wide": 0.9978, "narrow": 1.0020}
+
+
+def profile(radii: dict, upstream: float) -> str:
+    """Entry radius of motilityProperties [m] with these radii [mm]."""
+    rows = []
+    for x, r in 1e3 * PROFILE:
+        inside = 30 <= x <= 180
+        new = radii.get(round(x), r * upstream if inside else r)
+        rows.append(f"({x * 1e-3:.3f} {new * 1e-3:.5f})")
+    return f"({' '.join(rows)})"
+
+
+MOTILITY = "constant/motilityProperties:"
+BOLUS = "constant/bolusProperties:"
+
+# What is changed: {entry: value}
+CAUSES = {
+    "as the tutorial": {},
+    "wider antrum": {
+        MOTILITY + "profile.radius": profile(WIDE, UPSTREAM["wide"])
+    },
+    "narrower antrum": {
+        MOTILITY + "profile.radius": profile(NARROW, UPSTREAM["narrow"])
+    },
+    "bolus 2 mm on": {"bolusCentre": "(0.2248 0 0)"},
+    "bolus 4 mm on": {"bolusCentre": "(0.2268 0 0)"},
+    "shell without friction": {"shellFriction": "none"},
+    "friction 0.3": {"mu": 0.3},
+    "friction 0.6": {"mu": 0.6},
+    "no slip": {"friction": "noSlip"},
+    "elasticSlip 5 µm": {"elasticSlip": 5e-6},
+    "elasticSlip 20 µm": {"elasticSlip": 2e-5},
+    "damage averaged over 1 mm": {"nonlocalLength": 1e-3},
+    "damage averaged over 2 mm": {"nonlocalLength": 2e-3},
+    "0.1 of strain under tension": {"tensileStrain": 0.1},
+    "broken bolus holds no tension": {BOLUS + "void.cohesion": 0},
+    "broken bolus half as viscous": {BOLUS + "void.etaDamaged": 2.5},
+    "wave by Eq. 14 to the letter": {
+        "reading": "tail",
+        "closedBetween": "(17.6 27.1)",
+    },
+    "occlusion 0.9 from 230 mm on": {
+        MOTILITY + "waves.occlusion": "((0.210 0) (0.230 0.9))"
+    },
+    "density of food": {"inertia": 1},
+    "the paper's density": {"inertia": 100},
+}
+
+
+def _when(run: Run, name: str, reached) -> float:
+    """First time at which a table reached(it); inf: never."""
+    table = run.table(name)
+    if table is None:
+        return float("nan")
+    times = table.time[reached(table)]
+    return float(times[0]) if times.size else float("inf")
+
+
+def _at(run: Run, time: float, name: str) -> float:
+    found = run.at(time, name)
+    return float("nan") if found is None else found
+
+
+def _part(run: Run, table: str, column: str, *times: float) -> float:
+    """A column at the last of two times, of that at the first."""
+    found = run.series(table, column, *times)
+    return float("nan") if found is None else found[1] / found[0]
+
+
+def _peak(run: Run, t0: float, t1: float) -> float:
+    found = run.peak("contactForce", "total_perMass", t0, t1)
+    return float("nan") if found is None else found
+
+
+def _work(run: Run) -> float:
+    found = run.series("externalWork", "work_perMass", 32)
+    return float("nan") if found is None else found[0]
+
+
+def _agree(run: Run) -> float:
+    return sum(row.find(run)[1] is True for row in CASE_A)
+
+
+# Column: (what the paper says, of a run)
+FIGURES = {
+    "rows that agree": (f"{len(CASE_A)}", _agree),
+    "first damage [s]": (
+        "7.5",
+        lambda run: _when(run, "damagedVolume", lambda t: t["fraction"] > 0),
+    ),
+    "η in the core at 7.5 s": (
+        "> 1",
+        lambda run: _at(run, 7.5, "triaxialityMaxCore"),
+    ),
+    "pieces at 10.5 s": ("2", lambda run: _at(run, 10.5, "pieces")),
+    "mean σ_eq at 10.5 s [kPa]": (
+        "0",
+        lambda run: 1e-3 * _at(run, 10.5, "sigmaEqMean"),
+    ),
+    "plastic strain at 12.5 s": (
+        "15",
+        lambda run: _at(run, 12.5, "epsilonPEqMax"),
+    ),
+    "jet back at 12.5 s [mm/s]": (
+        "20",
+        lambda run: 1e3 * _at(run, 12.5, "jetBackward"),
+    ),
+    "jet out at 12.5 s [mm/s]": (
+        "20",
+        lambda run: 1e3 * _at(run, 12.5, "jetForward"),
+    ),
+    "outflow from [s]": (
+        "12.5",
+        lambda run: _when(run, "retainedMass", lambda t: t["upstream"] < 0.999),
+    ),
+    "peak force to 18 s [N/g]": ("-", lambda run: _peak(run, 0, 18)),
+    "work [mJ/g]": ("-", _work),
+    "retained at 32 s [%]": (
+        "50",
+        lambda run: 100 * _part(run, "retainedMass", "retained", 7.5, 32),
+    ),
+    "surface at 32 s [%]": (
+        "-18",
+        lambda run: 100 * _part(run, "freeSurface", "externalArea", 7.5, 32)
+        - 100,
+    ),
+}
+
+
+def picture(numbers: dict, target: Path) -> None:
+    """The table of all figures; coloured where they leave the tutorial's."""
+    names = list(FIGURES)
+    labels = list(numbers)
+    values = np.array([[numbers[c][n] for n in names] for c in labels])
+    base = values[0]
+    scale = np.where(np.isfinite(base) & (base != 0), np.abs(base), 1)
+    with np.errstate(invalid="ignore"):
+        change = np.clip((values - base) / scale, -1, 1)
+    change[~np.isfinite(change)] = 0
+    figure, axis = plt.subplots(
+        figsize=(1.1 * len(names), 0.36 * len(labels) + 2)
+    )
+    axis.imshow(change, cmap="RdBu_r", vmin=-1, vmax=1, aspect="auto")
+    for (i, j), number in np.ndenumerate(values):
+        axis.text(j, i, f"{number:.3g}", ha="center", va="center", fontsize=8)
+    axis.set_xticks(
+        range(len(names)),
+        [f"{n}\n(paper: {FIGURES[n][0]})" for n in names],
+        rotation=40,
+        ha="left",
+        fontsize=8,
+    )
+    axis.xaxis.tick_top()
+    axis.set_yticks(range(len(labels)), labels, fontsize=8)
+    figure.tight_layout()
+    figure.savefig(target, dpi=110)
+    plt.close(figure)
+
+
+@study(
+    "causes",
+    "E",
+    "Case A on 1 mm, one assumption changed at a time",
+    "what the paper says in words; for information",
+)
+def causes(folder: Path, quick: bool) -> Findings:
+    found = Findings()
+    numbers = {}
+    for cause, settings in CAUSES.items():
+        case = kept_run("gastric/caseA", "gastric", **(COARSE | settings))
+        gave_up = case / "stopped"
+        if gave_up.exists():
+            found.remarks.append(f"{cause}: {gave_up.read_text()}")
+            numbers[cause] = dict.fromkeys(FIGURES, float("nan"))
+            continue
+        run = Run(case)
+        numbers[cause] = {name: of(run) for name, (_, of) in FIGURES.items()}
+        for name, number in numbers[cause].items():
+            found.row(f"{name}: {cause}", "-", number)
+    picture(numbers, folder / "causes.png")
+    found.picture = "causes.png"
+    return found
