@@ -58,6 +58,7 @@ class Parameters:
     zoneBehind: float
     cellsThrough: int
     roomThrough: float
+    ends: int
     startGap: float
     voidStress: float
     # STL file, and its outline (see tool_surface) at the axis (n, 2)
@@ -101,7 +102,14 @@ class Parameters:
     @property
     def depth(self) -> float:
         """Of the mesh along the tool [m]."""
-        return self.thickness + (0 if self.plane else 2 * self.roomThrough)
+        if self.plane:
+            return self.thickness
+        return self.ends * (0.5 * self.thickness + self.roomThrough)
+
+    @property
+    def factor(self) -> int:
+        """The whole tool and block in terms of what is meshed."""
+        return 2 if self.plane else 4 // self.ends
 
     @property
     def plane(self) -> bool:
@@ -139,6 +147,15 @@ def read_parameters(path: Path) -> Parameters:
     surface = found.get("toolSurface", "none").strip('"')
     if surface != "none":
         given = around_surface(given, path.parents[1] / surface)
+    if given.ends not in (1, 2):
+        raise SystemExit(
+            f"{path}: entry ends is {given.ends}; valid are 1 and 2"
+        )
+    if given.ends == 1 and given.cellsThrough % 2:
+        raise SystemExit(
+            f"{path}: entry cellsThrough is {given.cellsThrough}; valid with "
+            "ends 1 are even numbers"
+        )
     if given.diameter < 3 * given.cellSize:
         raise SystemExit(
             f"{path}: entry diameter is {given.diameter:g}, thinner than three "
@@ -304,17 +321,18 @@ def _layers(p: Parameters) -> tuple[list[int], list[float], float, float]:
     """Layers of cells along z: numbers, relative heights, start and depth."""
     if p.plane:
         return [1], [1.0], 0.0, p.thickness
-    if p.roomThrough == 0:
-        return [p.cellsThrough], [1.0], -0.5 * p.thickness, p.thickness
-    depth = p.depth
-    outside = max(1, round(p.roomThrough * p.cellsThrough / p.thickness))
-    first = p.roomThrough / depth
-    return (
-        [outside, p.cellsThrough, outside],
-        [first, 1 - first, 1.0],
-        -0.5 * depth,
-        depth,
-    )
+    inside = p.cellsThrough * p.ends // 2
+    outside = round(p.roomThrough * p.cellsThrough / p.thickness)
+    if p.roomThrough > 0:
+        outside = max(1, outside)
+    room = p.roomThrough / p.depth
+    # From the middle, or from the other end, to this one
+    layers = [(inside, 1 - room), (outside, 1.0)]
+    if p.ends == 2:
+        layers.insert(0, (outside, room))
+    layers = [layer for layer in layers if layer[0]]
+    numbers, heights = map(list, zip(*layers, strict=True))
+    return numbers, heights, 0.5 * p.depth * (1 - p.ends), p.depth
 
 
 def _name(box, p: Parameters) -> str:
@@ -322,7 +340,9 @@ def _name(box, p: Parameters) -> str:
     low, high = np.array(box[:3]), np.array(box[3:])
     near = 1e-6 * p.top
     if high[2] - low[2] < near:
-        return "frontAndBack" if p.plane else "open"
+        if p.plane:
+            return "frontAndBack"
+        return "section" if p.ends == 1 and high[2] < near else "open"
     if high[0] < near:
         return "middle"
     if high[1] < near:
@@ -336,6 +356,7 @@ def _name(box, p: Parameters) -> str:
 TYPES = {
     "frontAndBack": "empty",
     "middle": "symmetryPlane",
+    "section": "symmetryPlane",
     "platen": "wall",
     "tool": "wall",
     "open": "patch",
@@ -487,6 +508,7 @@ def write_derived(case: Path, p: Parameters) -> None:
         f"voidEta         {0.05 * p.voidStress * scale:.12g};\n"
         f"overfillTime    {0.01 * scale:.12g};\n"
         f"elasticSlip     {0.02 * p.cellSize:.12g};\n"
+        f"modelFactor     {p.factor};\n"
         f"toolOrigin      (0 {p.centre:.12g} 0);\n"
         f"toolZone        ({p.zoneAhead:.12g} {p.zoneBehind:.12g});\n",
     )
@@ -508,7 +530,9 @@ def main(arguments=None) -> int:
     (case / "0").mkdir(exist_ok=True)
     write_alpha(case, mesh, alpha)
     volume = alpha @ mesh.cell_volumes
-    print(f"cutting: {mesh.n_cells} cells, bolus {volume:.9g} m3 in the half")
+    print(
+        f"cutting: {mesh.n_cells} cells, bolus {volume:.9g} m3 of 1/{p.factor}"
+    )
     return 0
 
 

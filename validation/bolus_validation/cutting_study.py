@@ -493,7 +493,7 @@ def wire_j(folder: Path, quick: bool) -> Findings:
 @study(
     "solid_solver",
     "E",
-    "The first 0.5 mm in 3D, four layers: multigrid against the direct solver",
+    "The first 0.5 mm in 3D, four layers: Schwarz's method, direct solver",
     "the direct solver; force 1 %, no step rejected at the tutorial's accuracy",
 )
 def solid_solver(folder: Path, quick: bool) -> Findings:

@@ -139,12 +139,12 @@ MUTATIONS = (
         "test_solver.py -k failed_linear_solution",
     ),
     Mutation(
-        "multigrid preconditioned by the threshold of friction",
+        "subdomains of Schwarz's method that do not overlap",
         SOLVE,
-        "J->leaveOut(c, tangent.threshold, rows, cols);",
-        "",
+        "-bolus_velocity_pc_asm_overlap 2",
+        "-bolus_velocity_pc_asm_overlap 0",
         COUPLED,
-        "test_solver.py -k not_preconditioned_by_the_threshold",
+        "test_solver.py -k subdomains_overlap",
     ),
     Mutation(
         "closing voids extrapolated from where they are",

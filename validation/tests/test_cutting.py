@@ -272,6 +272,24 @@ def test_layers_along_the_tool_give_a_solid_mesh(folder):
     )
 
 
+def test_half_the_thickness_carries_the_force_of_all_of_it(folder):
+    # Found the same to 5e-5, work to 1.5e-4 (1e-10 after the first step; the
+    # transport takes the faces in another order)
+    found = {}
+    for ends in (1, 2):
+        case = prepare(
+            folder / f"ends{ends}",
+            **COARSE | {"travel": 5e-4, "writeTravel": 5e-4},
+            cellsThrough=4,
+            roomThrough=0.01,
+            ends=ends,
+        )
+        solve(case)
+        energy = read_table(case, "energyBalance")
+        found[ends] = force(case)["axial"][-1], energy["work"][-1]
+    assert found[1] == pytest.approx(found[2], rel=1e-3)
+
+
 # --- measured curves ---------------------------------------------------------
 
 
@@ -422,6 +440,8 @@ def test_bad_input_is_one_clear_error_before_the_first_step(
         ({"travel": 0.0195}, ["travel", "platen", "less than"]),
         ({"speed": 0}, ["speed", "greater than 0"]),
         ({"startGap": -0.001}, ["startGap", "at least 0"]),
+        ({"ends": 3}, ["ends is 3", "1 and 2"]),
+        ({"ends": 1, "cellsThrough": 3}, ["cellsThrough is 3", "even"]),
     ],
 )
 def test_the_mesher_tells_bad_parameters(tmp_path, entries, words):

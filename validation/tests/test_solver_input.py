@@ -123,7 +123,7 @@ BAD = {
         "system/fvSolution",
         r"bolus \{",
         "bolus { linearSolver magic;",
-        ["linearSolver", "magic", "direct", "multigrid"],
+        ["linearSolver", "magic", "direct", "schwarz"],
     ),
     "unknown friction": (
         "0/U",

@@ -84,13 +84,10 @@ void Foam::condensedTangent::preallocate()
     MatCreate(PETSC_COMM_WORLD, A_.set());
     MatSetType(A_, MATAIJ);
     MatSetSizes(A_, n, n, PETSC_DETERMINE, PETSC_DETERMINE);
-    MatSetBlockSize(A_, nd);
     MatPreallocatorPreallocate(pattern, PETSC_TRUE, A_);
+    // Preallocation makes it 1
+    MatSetBlockSize(A_, nd);
     MatSetOption(A_, MAT_NEW_NONZERO_ALLOCATION_ERR, PETSC_TRUE);
-    if (iterative_)
-    {
-        MatDuplicate(A_, MAT_DO_NOT_COPY_VALUES, preconditioner_.set());
-    }
 }
 
 
@@ -98,56 +95,8 @@ void Foam::condensedTangent::createSolver()
 {
     KSPCreate(PETSC_COMM_WORLD, solver_.set());
     KSPSetOptionsPrefix(solver_, "bolus_velocity_");
-    KSPSetOperators(solver_, A_, iterative_ ? preconditioner_ : A_);
+    KSPSetOperators(solver_, A_, A_);
     petscCheck(KSPSetFromOptions(solver_), "petscOptions of fvSolution");
-}
-
-
-void Foam::condensedTangent::setRigidMotions()
-{
-    if (!iterative_ || space_.nd() != 3) return;
-
-    const trapsOff noTraps;
-    const pointField& points = space_.mesh().points();
-    const point centre = gAverage(points);
-    const vector axes[3] = {vector(1, 0, 0), vector(0, 1, 0), vector(0, 0, 1)};
-
-    petscVec modes[6];
-    Vec vectors[6];
-    for (label m = 0; m < 6; ++m)
-    {
-        VecDuplicate(solution_, modes[m].set());
-        vectors[m] = modes[m];
-
-        PetscScalar* v;
-        VecGetArray(vectors[m], &v);
-        label i = 0;
-        for (const label node : space_.ownedNodes())
-        {
-            const vector x = points[space_.nodePoint()[node]] - centre;
-            const vector u = m < 3 ? axes[m] : (axes[m - 3] ^ x);
-            for (label k = 0; k < 3; ++k)
-            {
-                v[i++] =
-                    k < space_.nFixed()[node] ? 0 : u & space_.basis()[node][k];
-            }
-        }
-        VecRestoreArray(vectors[m], &v);
-
-        // Orthonormal, as PETSc wants them
-        for (label n = 0; n < m; ++n)
-        {
-            PetscScalar dot;
-            VecDot(vectors[m], vectors[n], &dot);
-            VecAXPY(vectors[m], -dot, vectors[n]);
-        }
-        VecNormalize(vectors[m], nullptr);
-    }
-
-    MatNullSpace rigid;
-    MatNullSpaceCreate(PETSC_COMM_WORLD, PETSC_FALSE, 6, vectors, &rigid);
-    MatSetNearNullSpace(preconditioner_, rigid);
-    MatNullSpaceDestroy(&rigid);
 }
 
 
@@ -306,8 +255,7 @@ PetscErrorCode Foam::condensedTangent::shellSolve(PC pc, Vec f, Vec x)
 Foam::condensedTangent::condensedTangent(
     const nodalSpace& space,
     VecScatter scatter,
-    Vec local,
-    const bool iterative
+    Vec local
 ) :
     space_(space),
     room_(space.mesh().nCells(), false),
@@ -315,7 +263,6 @@ Foam::condensedTangent::condensedTangent(
     C_(space.cellDofs().size(), Zero),
     D_(space.mesh().nCells(), 1.0),
     excess_(space.mesh().nCells(), Zero),
-    iterative_(iterative),
     scatter_(scatter),
     local_(local),
     iterations_(0)
@@ -384,12 +331,10 @@ void Foam::condensedTangent::clear(const boolList& cells)
         createSolver();
     }
     MatZeroEntries(A_);
-    if (iterative_) MatZeroEntries(preconditioner_);
     B_ = 0;
     C_ = 0;
     D_ = 1;
     excess_ = 0;
-    setRigidMotions();
 }
 
 
@@ -424,39 +369,6 @@ void Foam::condensedTangent::add(
 }
 
 
-void Foam::condensedTangent::leaveOut(
-    const label c,
-    const scalarField& part,
-    const UList<PetscInt>& rows,
-    const UList<PetscInt>& cols
-)
-{
-    if (!iterative_) return;
-
-    // The pressure with them, as it follows the velocities
-    const label n = cols.size();
-    const scalar* C = &C_[space_.cellStart()[c]];
-    scalarField less(n * n);
-    for (label i = 0; i < n; ++i)
-    {
-        const scalar* row = &part[i * (n + 1)];
-        for (label j = 0; j < n; ++j)
-        {
-            less[i * n + j] = row[n] * C[j] / D_[c] - row[j];
-        }
-    }
-    MatSetValues(
-        preconditioner_,
-        n,
-        rows.cdata(),
-        n,
-        cols.cdata(),
-        less.cdata(),
-        ADD_VALUES
-    );
-}
-
-
 void Foam::condensedTangent::fix(const PetscInt row)
 {
     const scalar one = 1;
@@ -468,15 +380,9 @@ void Foam::condensedTangent::finish()
 {
     MatAssemblyBegin(A_, MAT_FINAL_ASSEMBLY);
     MatAssemblyEnd(A_, MAT_FINAL_ASSEMBLY);
-    if (iterative_)
-    {
-        MatAssemblyBegin(preconditioner_, MAT_FINAL_ASSEMBLY);
-        MatAssemblyEnd(preconditioner_, MAT_FINAL_ASSEMBLY);
-        MatAXPY(preconditioner_, 1, A_, SAME_NONZERO_PATTERN);
-    }
     MatAssemblyBegin(shell_, MAT_FINAL_ASSEMBLY);
     MatAssemblyEnd(shell_, MAT_FINAL_ASSEMBLY);
-    KSPSetOperators(solver_, A_, iterative_ ? preconditioner_ : A_);
+    KSPSetOperators(solver_, A_, A_);
 }
 
 // ************************************************************************* //

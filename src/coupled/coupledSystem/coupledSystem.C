@@ -313,6 +313,9 @@ Foam::coupledSystem::coupledSystem(
     voidLayers_ = read.wholeNumber(
         "voidLayers", "of cells around the bolus", {0, true, 1e6, true}, 0
     );
+    subdomains_ = read.wholeNumber(
+        "subdomains", "of schwarz, on each processor", {1, true, 1e4, true}, 4
+    );
     linearTolerance_ = read.number(
         "linearTolerance",
         "largest relative residual of the linear solver [-]",

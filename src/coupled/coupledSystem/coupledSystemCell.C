@@ -318,7 +318,6 @@ void Foam::coupledSystem::assembleCell(
     }
 
     // Friction on the cell's wall faces
-    if (tangent) tangent->threshold.clear();
     forAll(contactFaces_[c], fi)
     {
         contact k;
@@ -364,15 +363,10 @@ void Foam::coupledSystem::assembleCell(
                     }
                 }
                 if (dpn == 0) continue;
-
-                scalarField& threshold = tangent->threshold;
-                if (threshold.empty()) threshold.setSize((n + 1) * (n + 1), 0);
                 for (label j = 0; j <= n; ++j)
                 {
-                    const scalar d = w * dpn * along
+                    row[j] += w * dpn * along
                         * ((j == n ? 1 : 0) - (k.n & dS_[j] & k.n));
-                    row[j] += d;
-                    threshold[(s + i) * (n + 1) + j] += d;
                 }
             }
         }

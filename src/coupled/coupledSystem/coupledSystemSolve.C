@@ -24,27 +24,32 @@ void Foam::coupledSystem::setPetsc(const dictionary& dict)
                    // The rows are scaled: MUMPS need not look for scales
                    " -bolus_velocity_mat_mumps_icntl_8 0 ";
     }
-    else if (solver == "multigrid")
+    else if (solver == "schwarz")
     {
-        // Preconditioned from the right: judged by the residual itself
+        // Preconditioned from the right: judged by the residual itself. The
+        // subdomains are partitioned by PTScotch, where PETSc has it.
         options += "-bolus_velocity_ksp_type gmres"
                    " -bolus_velocity_ksp_pc_side right"
                    " -bolus_velocity_ksp_gmres_restart 100"
                    " -bolus_velocity_ksp_gmres_cgs_refinement_type"
                    " refine_ifneeded"
                    " -bolus_velocity_ksp_max_it 500"
-                   " -bolus_velocity_pc_type gamg"
-                   " -bolus_velocity_mg_levels_ksp_type chebyshev"
-                   " -bolus_velocity_mg_levels_ksp_max_it 3"
-                   " -bolus_velocity_mg_levels_ksp_chebyshev_esteig"
-                   " 0,0.05,0,1.1"
-                   " -bolus_velocity_mg_levels_pc_type jacobi ";
+                   " -bolus_velocity_pc_type asm"
+                   " -bolus_velocity_pc_asm_overlap 2"
+                   " -bolus_velocity_pc_asm_blocks "
+            + Foam::name(subdomains_ * Pstream::nProcs())
+            + " -bolus_velocity_sub_pc_type lu"
+              " -bolus_velocity_sub_pc_factor_mat_solver_type mumps"
+              " -bolus_velocity_sub_mat_mumps_icntl_14 80"
+              // PORD: the best of MUMPS's own orderings in 3D
+              " -bolus_velocity_sub_mat_mumps_icntl_7 4"
+              " -bolus_velocity_sub_mat_mumps_icntl_8 0 ";
     }
     else
     {
         FatalIOErrorInFunction(dict)
             << "entry linearSolver: " << solver
-            << "; valid are direct (small and plane meshes) and multigrid"
+            << "; valid are direct (small and plane meshes) and schwarz"
             << " (large three-dimensional ones)" << exit(FatalIOError);
     }
     options += dict.lookupOrDefault<string>("petscOptions", "");
@@ -96,9 +101,7 @@ void Foam::coupledSystem::setPetsc(const dictionary& dict)
         "VecScatterCreate"
     );
 
-    tangent_.reset(
-        new condensedTangent(space_, scatter_, local_, solver != "direct")
-    );
+    tangent_.reset(new condensedTangent(space_, scatter_, local_));
 
     SNESCreate(PETSC_COMM_WORLD, snes_.set());
     SNESSetOptionsPrefix(snes_, "bolus_");
@@ -177,25 +180,16 @@ void Foam::coupledSystem::assemble(Vec f, condensedTangent* J) const
         }
         else
         {
-            const auto scale = [&](scalarField& block)
+            for (label i = 0; i <= n; ++i)
             {
-                for (label i = 0; i <= n; ++i)
+                for (label j = 0; j <= n; ++j)
                 {
-                    for (label j = 0; j <= n; ++j)
-                    {
-                        block[i * (n + 1) + j] *=
-                            rowScale[i] * (j < n ? U0_ : P0_);
-                    }
+                    tangent.J[i * (n + 1) + j] *=
+                        rowScale[i] * (j < n ? U0_ : P0_);
                 }
-            };
-            scale(tangent.J);
+            }
             J->add(c, tangent.J, rows, cols);
             J->extrapolate(c, weight_[c] * tangent.excess);
-            if (tangent.threshold.size())
-            {
-                scale(tangent.threshold);
-                J->leaveOut(c, tangent.threshold, rows, cols);
-            }
         }
     }
 
