@@ -44,15 +44,20 @@ def profile(radii: dict, upstream: float) -> str:
 MOTILITY = "constant/motilityProperties:"
 BOLUS = "constant/bolusProperties:"
 
+WIDER = {MOTILITY + "profile.radius": profile(WIDE, UPSTREAM["wide"])}
+NARROWER = {MOTILITY + "profile.radius": profile(NARROW, UPSTREAM["narrow"])}
+
+
+def occluded(x: int) -> dict:
+    """The wave has its full depth from x [mm] on."""
+    return {MOTILITY + "waves.occlusion": f"((0.210 0) ({x * 1e-3:.3f} 0.9))"}
+
+
 # What is changed: {entry: value}
 CAUSES = {
     "as the tutorial": {},
-    "wider antrum": {
-        MOTILITY + "profile.radius": profile(WIDE, UPSTREAM["wide"])
-    },
-    "narrower antrum": {
-        MOTILITY + "profile.radius": profile(NARROW, UPSTREAM["narrow"])
-    },
+    "wider antrum": WIDER,
+    "narrower antrum": NARROWER,
     "bolus 2 mm on": {"bolusCentre": "(0.2248 0 0)"},
     "bolus 4 mm on": {"bolusCentre": "(0.2268 0 0)"},
     "shell without friction": {"shellFriction": "none"},
@@ -70,9 +75,10 @@ CAUSES = {
         "reading": "tail",
         "closedBetween": "(17.6 27.1)",
     },
-    "occlusion 0.9 from 230 mm on": {
-        MOTILITY + "waves.occlusion": "((0.210 0) (0.230 0.9))"
-    },
+    "occlusion 0.9 from 235 mm on": occluded(235),
+    "occlusion 0.9 from 230 mm on": occluded(230),
+    "from 235 mm on, wider antrum": occluded(235) | WIDER,
+    "from 230 mm on, wider antrum": occluded(230) | WIDER,
     "density of food": {"inertia": 1},
     "the paper's density": {"inertia": 100},
 }

@@ -141,7 +141,7 @@ MUTATIONS = (
     Mutation(
         "subdomains of Schwarz's method that do not overlap",
         SOLVE,
-        "-bolus_velocity_pc_asm_overlap 2",
+        "-bolus_velocity_pc_asm_overlap 1",
         "-bolus_velocity_pc_asm_overlap 0",
         COUPLED,
         "test_solver.py -k subdomains_overlap",

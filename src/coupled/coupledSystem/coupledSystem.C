@@ -314,7 +314,7 @@ Foam::coupledSystem::coupledSystem(
         "voidLayers", "of cells around the bolus", {0, true, 1e6, true}, 0
     );
     subdomains_ = read.wholeNumber(
-        "subdomains", "of schwarz, on each processor", {1, true, 1e4, true}, 4
+        "subdomains", "of schwarz, on each processor", {1, true, 1e4, true}, 6
     );
     linearTolerance_ = read.number(
         "linearTolerance",

@@ -27,7 +27,8 @@ void Foam::coupledSystem::setPetsc(const dictionary& dict)
     else if (solver == "schwarz")
     {
         // Preconditioned from the right: judged by the residual itself. The
-        // subdomains are partitioned by PTScotch, where PETSc has it.
+        // subdomains are partitioned by PTScotch, where PETSc has it; what is
+        // of low rank to 1e-3 in their factors is taken so.
         options += "-bolus_velocity_ksp_type gmres"
                    " -bolus_velocity_ksp_pc_side right"
                    " -bolus_velocity_ksp_gmres_restart 100"
@@ -35,7 +36,7 @@ void Foam::coupledSystem::setPetsc(const dictionary& dict)
                    " refine_ifneeded"
                    " -bolus_velocity_ksp_max_it 500"
                    " -bolus_velocity_pc_type asm"
-                   " -bolus_velocity_pc_asm_overlap 2"
+                   " -bolus_velocity_pc_asm_overlap 1"
                    " -bolus_velocity_pc_asm_blocks "
             + Foam::name(subdomains_ * Pstream::nProcs())
             + " -bolus_velocity_sub_pc_type lu"
@@ -43,7 +44,9 @@ void Foam::coupledSystem::setPetsc(const dictionary& dict)
               " -bolus_velocity_sub_mat_mumps_icntl_14 80"
               // PORD: the best of MUMPS's own orderings in 3D
               " -bolus_velocity_sub_mat_mumps_icntl_7 4"
-              " -bolus_velocity_sub_mat_mumps_icntl_8 0 ";
+              " -bolus_velocity_sub_mat_mumps_icntl_8 0"
+              " -bolus_velocity_sub_mat_mumps_icntl_35 2"
+              " -bolus_velocity_sub_mat_mumps_cntl_7 1e-3 ";
     }
     else
     {
