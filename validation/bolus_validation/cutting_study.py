@@ -498,7 +498,7 @@ def wire_j(folder: Path, quick: bool) -> Findings:
 )
 def solid_solver(folder: Path, quick: bool) -> Findings:
     found = Findings()
-    coarse = {"cellsThrough": 4, "travel": 5e-4, "travelStep": 2e-4}
+    coarse = {"cellsThrough": 4, "ends": 2, "travel": 5e-4, "travelStep": 2e-4}
     left = {
         "system/fvSolution:bolus.petscOptions": (
             '"-bolus_velocity_ksp_pc_side left"'
