@@ -144,9 +144,6 @@ def read_parameters(path: Path) -> Parameters:
             )
         values[entry.name] = number
     given = Parameters(**values)
-    surface = found.get("toolSurface", "none").strip('"')
-    if surface != "none":
-        given = around_surface(given, path.parents[1] / surface)
     if given.ends not in (1, 2):
         raise SystemExit(
             f"{path}: entry ends is {given.ends}; valid are 1 and 2"
@@ -156,6 +153,9 @@ def read_parameters(path: Path) -> Parameters:
             f"{path}: entry cellsThrough is {given.cellsThrough}; valid with "
             "ends 1 are even numbers"
         )
+    surface = found.get("toolSurface", "none").strip('"')
+    if surface != "none":
+        given = around_surface(given, path.parents[1] / surface)
     if given.diameter < 3 * given.cellSize:
         raise SystemExit(
             f"{path}: entry diameter is {given.diameter:g}, thinner than three "
@@ -179,7 +179,8 @@ def read_parameters(path: Path) -> Parameters:
 
 def around_surface(p: Parameters, path: Path) -> Parameters:
     """The same with the tool of an STL file."""
-    p = replace(p, toolSurface=path, outline=outline(path, p.depth))
+    length = p.depth if p.plane else 2 * p.depth / p.ends
+    p = replace(p, toolSurface=path, outline=outline(path, length))
     width = 2 * p.outline[:, 0].max()
     if abs(width - p.diameter) > 0.01 * width:
         raise SystemExit(

@@ -93,7 +93,8 @@ def reach(segments: np.ndarray, angle: float) -> np.ndarray:
 def outline(path: Path, depth: float) -> np.ndarray:
     """Right half of the tool's section, from below the axis to above (n, 2).
 
-    depth    of the mesh along z, which the tool must reach through [m]
+    depth    of the mesh along z, which the tool must reach through; with a
+             plane of symmetry at z = 0 that of both halves [m]
     """
     triangles = check_surface(path)
     low, high = triangles[..., 2].min(), triangles[..., 2].max()

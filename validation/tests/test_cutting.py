@@ -578,6 +578,12 @@ BAD_SURFACES = {
         {},
         ["reaches from z = -0.02 to 0.01", "0.015"],
     ),
+    "too short, half of it meshed": (
+        WEDGE,
+        (-0.02, 0.02),
+        {"cellsThrough": 4, "roomThrough": 0.01, "ends": 1},
+        ["reaches from z = -0.02 to 0.02", "0.025"],
+    ),
     "other width": (
         WEDGE,
         (),

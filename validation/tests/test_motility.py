@@ -16,7 +16,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 from bolus_validation.fields import Case
+from bolus_validation.gastric_causes import NARROWER, WIDER
 from bolus_validation.motility import Motility
+from scipy.interpolate import PchipInterpolator
 
 ROOT = Path(__file__).resolve().parents[2]
 CASE_A = ROOT / "tutorials" / "gastric" / "caseA"
@@ -367,6 +369,20 @@ def test_stomach_holds_0_88_l_and_the_bolus_fits():
         wall = Motility(c_by=by)
         touched = [np.any(wall.radius(x, t) < sphere) for t in times]
         assert times[np.argmax(touched)] == pytest.approx(expected, abs=0.051)
+
+
+@pytest.mark.parametrize("stomach", [WIDER, NARROWER])
+def test_other_stomachs_hold_0_88_l_and_the_bolus_fits(stomach):
+    (text,) = stomach.values()
+    x, r = np.array(re.findall(r"\(([\d.]+) ([\d.]+)\)", text), float).T
+    radius = PchipInterpolator(x, r)
+    assert (x[-1], r[-1]) == (0.250, 6e-3)
+    x = np.linspace(0, 0.250, 20001)
+    volume = np.trapezoid(np.pi * radius(x) ** 2, x)
+    assert volume == pytest.approx(0.88e-3, rel=1e-3)
+    x = np.linspace(0.210, 0.2356, 2001)
+    sphere = np.sqrt(np.maximum(12.8e-3**2 - (x - 0.2228) ** 2, 0))
+    assert np.all(radius(x) > sphere)
 
 
 def test_patch_condition_gives_the_wall_of_the_motion_solver(tmp_path):

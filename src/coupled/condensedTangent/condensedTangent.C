@@ -85,7 +85,7 @@ void Foam::condensedTangent::preallocate()
     MatSetType(A_, MATAIJ);
     MatSetSizes(A_, n, n, PETSC_DETERMINE, PETSC_DETERMINE);
     MatPreallocatorPreallocate(pattern, PETSC_TRUE, A_);
-    // Preallocation makes it 1
+    // Preallocation makes it 1; subdomains are to have whole nodes
     MatSetBlockSize(A_, nd);
     MatSetOption(A_, MAT_NEW_NONZERO_ALLOCATION_ERR, PETSC_TRUE);
 }
