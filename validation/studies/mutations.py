@@ -155,6 +155,14 @@ MUTATIONS = (
         "test_cutting.py -k shortcuts",
     ),
     Mutation(
+        "consistent tangent where the stress has turned",
+        CELL,
+        "r.r.dqdqTrial = r.r.theta;",
+        "",
+        COUPLED,
+        "test_gastric.py -k secant",
+    ),
+    Mutation(
         "pressure of cells with room not eliminated",
         SOLVE,
         "if (!eliminate_ || eliminateRoom_ == 0) return;",

@@ -11,6 +11,7 @@
 #include "symmetryPlanePolyPatch.H"
 #include "symmetryPolyPatch.H"
 #include "syncTools.H"
+#include "unitConversion.H"
 #include "wallPolyPatch.H"
 #include "wedgePolyPatch.H"
 
@@ -295,6 +296,13 @@ Foam::coupledSystem::coupledSystem(
         nonNegative,
         0
     );
+    const scalar secantAngle = read.number(
+        "secantAngle",
+        "by which the stress may turn between two iterations [degrees]",
+        {0, true, 180, true},
+        45
+    );
+    secantCos_ = secantAngle < 180 ? std::cos(degToRad(secantAngle)) : -GREAT;
     interfaceJump_ = read.number(
         "interfaceJump",
         "of alpha at an interface [-]",

@@ -226,6 +226,19 @@ void Foam::coupledSystem::closeVoid(
 }
 
 
+void Foam::coupledSystem::followTurn(const label c, cellResult& r) const
+{
+    const scalar along = r.r.s && sLast_[c];
+    const scalar norms = mag(r.r.s) * mag(sLast_[c]);
+    sLast_[c] = r.r.s;
+
+    if (secant_ && r.r.dEpsP > 0 && along < secantCos_ * norms)
+    {
+        r.r.dqdqTrial = r.r.theta;
+    }
+}
+
+
 void Foam::coupledSystem::assembleCell(
     const label c,
     DynamicList<scalar>& R,
@@ -252,6 +265,7 @@ void Foam::coupledSystem::assembleCell(
     // Derivatives in the direction of each unknown; the last is the pressure
     if (J)
     {
+        followTurn(c, r);
         scalar slope;
         closeVoid(c, r, slope, tangent->excess);
 

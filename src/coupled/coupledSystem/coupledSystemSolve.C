@@ -372,7 +372,7 @@ PetscErrorCode Foam::coupledSystem::convergedFunction(
 
 SNESConvergedReason Foam::coupledSystem::newton()
 {
-    // The secant of friction (see assembleCell) and closeVoid may lead uphill;
+    // The secants (see assembleCell, followTurn) and closeVoid may lead uphill;
     // then the tangent takes over from there, and so on
     SNESConvergedReason reason;
     PetscInt iterations;
@@ -420,6 +420,8 @@ const Foam::coupledSystem::report& Foam::coupledSystem::solve(
     shift_ = 0;
     gather(x_);
     qLast_ = q_;
+    sLast_.setSize(mesh_.nCells());
+    sLast_ = Zero;
     report_.iterations = 0;
     lagged_ = false;
     SNESConvergedReason reason = newton();
@@ -455,6 +457,7 @@ Foam::scalar Foam::coupledSystem::checkTangent(const scalar deltaT)
     if (eliminateRoom_ > 0) shift_ += pCell_ - pGiven_;
     eliminate_ = false;
     qLast_ = q_;
+    sLast_ = Zero;
     assemble(nullptr, &*tangent_);
 
     PetscRandom random;
