@@ -177,34 +177,31 @@ def test_wave_does_work_on_the_bolus(standard):
     assert 0.1e-3 < work["work"][-1] / force["total"].max() < 5e-3
 
 
-def test_secant_of_turning_stress_saves_iterations_and_keeps_the_work(
+def test_secant_of_turning_stress_saves_iterations_and_keeps_the_answer(
     tmp_path,
 ):
-    # secantAngle, where the wave squeezes the damaged bolus on and its flow
-    # turns round: case B, 1 mm, on from 12 to 14 s. Found
-    # 466 iterations for 879
+    # Case B, 1 mm, from 12 to 14 s, where it saves most, in the same 64 steps:
+    # found 489 iterations with secantAngle 45, 746 without (180), and the same
+    # work to 3e-5. Where the size of the steps follows the iterations, 466 and
+    # 879, and the work moves by what other steps make of it
     start = tmp_path / "start"
-    run_case(
-        CASE_A.with_name("caseB"),
-        start,
-        *settings(resolution=1e-3, endTime=12),
-    )
-    iterations, work = [], []
+    case_b = CASE_A.with_name("caseB")
+    run_case(case_b, start, *settings(resolution=1e-3, endTime=12))
+    control = start / "system" / "controlDict"
+    control.write_text(control.read_text() + "\neasyIterations 1000;\n")
+    steps, work = [], []
     for angle in (45, 180):
         case = tmp_path / str(angle)
         shutil.copytree(start, case)
         entry = "system/fvSolution:bolus.secantAngle"
-        run_case(
-            CASE_A.with_name("caseB"),
-            case,
-            "-continue",
-            *settings(endTime=14, **{entry: angle}),
-        )
-        steps = read_table(case, "solver", "steps")
-        iterations.append(steps["NewtonIterations"][steps.time > 12].sum())
+        options = settings(endTime=14, **{entry: angle})
+        run_case(case_b, case, "-continue", *options)
+        table = read_table(case, "solver", "steps")
+        steps.append((table.time, table["NewtonIterations"][table.time > 12]))
         work.append(read_table(case, "externalWork")["work"][-1])
-    assert iterations[0] < 0.75 * iterations[1]
-    assert work[0] == pytest.approx(work[1], rel=1e-2)
+    assert steps[0][0] == pytest.approx(steps[1][0], abs=1e-9)
+    assert steps[0][1].sum() < 0.75 * steps[1][1].sum()
+    assert work[0] == pytest.approx(work[1], rel=2e-4)
 
 
 # --- the closed pylorus ------------------------------------------------------

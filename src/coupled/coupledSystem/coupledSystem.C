@@ -249,7 +249,8 @@ Foam::coupledSystem::coupledSystem(
     eliminate_(true),
     q_(space_.nd() * space_.nNodes(), Zero),
     pCell_(mesh_.nCells(), Zero),
-    shift_(mesh_.nCells(), Zero)
+    shift_(mesh_.nCells(), Zero),
+    sLast_(mesh_.nCells(), Zero)
 {
     entryReader read(dict);
     const entryReader::interval& positive = entryReader::positive;

@@ -420,7 +420,6 @@ const Foam::coupledSystem::report& Foam::coupledSystem::solve(
     shift_ = 0;
     gather(x_);
     qLast_ = q_;
-    sLast_.setSize(mesh_.nCells());
     sLast_ = Zero;
     report_.iterations = 0;
     lagged_ = false;
