@@ -171,6 +171,14 @@ MUTATIONS = (
         "test_cutting.py -k shortcuts",
     ),
     Mutation(
+        "pressure of wisps not eliminated where Newton's method is stuck",
+        SOLVE,
+        "eliminateFrom_ *= 0.05;",
+        "eliminateFrom_ *= 0.99;",
+        COUPLED,
+        "test_cutting.py -k wisps",
+    ),
+    Mutation(
         "damage at twice the plastic strain",
         "src/rheology/damageModel/triaxialOnsetDamage/triaxialOnsetDamage.H",
         "epsP > epsilonPEq0_ &&",

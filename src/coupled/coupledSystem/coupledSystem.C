@@ -297,6 +297,7 @@ Foam::coupledSystem::coupledSystem(
         nonNegative,
         0
     );
+    eliminateFrom_ = eliminateRoom_;
     const scalar secantAngle = read.number(
         "secantAngle",
         "by which the stress may turn between two iterations [degrees]",

@@ -136,7 +136,7 @@ void Foam::coupledSystem::gather(Vec x)
     pGiven_ = pCell_;
     forAll(pCell_, c)
     {
-        if (solved_[c] && room_[c] > eliminateRoom_ * a_[c]) solvePressure(c);
+        if (solved_[c] && room_[c] > eliminateFrom_ * a_[c]) solvePressure(c);
     }
 }
 
@@ -345,6 +345,8 @@ PetscErrorCode Foam::coupledSystem::convergedFunction(
     const scalar residual = max(r.momentum, r.continuity);
     system.contraction_ = it > 0 ? residual / system.residual_ : 1;
     system.residual_ = residual;
+    system.stalled_ =
+        it > 0 && system.contraction_ > 0.8 ? system.stalled_ + 1 : 0;
     if (system.monitor_)
     {
         Info << "    Newton " << label(it) << "  stress imbalance "
@@ -364,6 +366,10 @@ PetscErrorCode Foam::coupledSystem::convergedFunction(
     {
         *reason = SNES_DIVERGED_MAX_IT;
     }
+    else if (system.mayEliminateMore() && system.stalled_ == 3)
+    {
+        *reason = SNES_DIVERGED_LINE_SEARCH;
+    }
     return 0;
 }
 
@@ -373,19 +379,30 @@ PetscErrorCode Foam::coupledSystem::convergedFunction(
 SNESConvergedReason Foam::coupledSystem::newton()
 {
     // The secants (see assembleCell, followTurn) and closeVoid may lead uphill;
-    // then the tangent takes over from there, and so on
+    // then the tangent takes over from there, and so on. Before that, pressures
+    // of cells with less room follow at once as well: in a step of any length a
+    // few of them can hold the line search of all.
     SNESConvergedReason reason;
     PetscInt iterations;
     secant_ = true;
+    eliminateFrom_ = eliminateRoom_;
     for (label attempt = 0; attempt < 4; ++attempt)
     {
+        stalled_ = 0;
         const trapsOff noTraps;
         petscCheck(SNESSolve(snes_, nullptr, x_), "SNESSolve");
         SNESGetConvergedReason(snes_, &reason);
         SNESGetIterationNumber(snes_, &iterations);
         report_.iterations += iterations;
         if (reason != SNES_DIVERGED_LINE_SEARCH) break;
-        secant_ = !secant_;
+        if (mayEliminateMore())
+        {
+            eliminateFrom_ *= 0.05;
+        }
+        else
+        {
+            secant_ = !secant_;
+        }
     }
     return reason;
 }
