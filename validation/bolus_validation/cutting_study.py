@@ -219,6 +219,17 @@ def cylinder(folder: Path, quick: bool) -> Findings:
     return found
 
 
+def first_damage(run: Run) -> float:
+    """Travel at the end of the first step with damage [mm], nan: none."""
+    table = read_table(run.path, "damagedVolume")
+    first = np.flatnonzero(table["damaged"] > 0)
+    return (
+        1e3 * run.parameters.speed * table.time[first[0]]
+        if first.size
+        else float("nan")
+    )
+
+
 @study(
     "cylinder_laws",
     "B",
@@ -240,14 +251,10 @@ def cylinder_laws(folder: Path, quick: bool) -> Findings:
             limit=0.05 if depth <= 0.7 else None,
             remark="paper: the same until 0.7 (5 %: the measured scatter)",
         )
-    table = read_table(damaged.path, "damagedVolume")
-    first = np.flatnonzero(table["damaged"] > 0)
     found.row(
         "first damage, plane strain",
         "mm",
-        1e3 * damaged.parameters.speed * table.time[first[0]]
-        if first.size
-        else float("nan"),
+        first_damage(damaged),
         4.0,
         remark="paper: 4 mm, in 3D, at the free end faces",
     )
@@ -538,11 +545,14 @@ def solid_solver(folder: Path, quick: bool) -> Findings:
     return found
 
 
-def solid_run() -> Run | None:
-    """A run of cylinder3D: from ./Allrun run cutting/cylinder3D, it is long."""
+def solid_run(name: str) -> Run | None:
+    """A run of cylinder3D, which is long: made by ./Allrun run, not from here.
+
+    name: folder in run/cutting; BOLUSFOAM_<NAME> tells another place.
+    """
     path = Path(
         os.environ.get(
-            "BOLUSFOAM_CYLINDER3D", ROOT / "run" / "cutting" / "cylinder3D"
+            f"BOLUSFOAM_{name.upper()}", ROOT / "run" / "cutting" / name
         )
     )
     return (
@@ -558,7 +568,8 @@ def solid_run() -> Run | None:
 )
 def solid(folder: Path, quick: bool) -> Findings:
     found = Findings()
-    run = solid_run()
+    run = solid_run("cylinder3D")
+    damaged = solid_run("cylinder3DDamage")
     if run is None:
         found.row(
             "cylinder3D: travel",
@@ -573,6 +584,17 @@ def solid(folder: Path, quick: bool) -> Findings:
     book(found, "cylinder3D", run)
     compare(
         found, {"plane": plane, "3D": run}, "plane", (0.1, 0.3, 0.5, 0.7, 0.9)
+    )
+    found.row(
+        "first damage",
+        "mm",
+        first_damage(damaged) if damaged else float("nan"),
+        4.0,
+        remark="(0.25, 0.2)"
+        if damaged
+        else "run it first: ./Allrun run cutting/cylinder3D -np 2 -set "
+        "law=viscoplasticDamage -set travel=0.005 -out "
+        "run/cutting/cylinder3DDamage",
     )
     found.picture = curves(folder, {"plane": plane, "3D": run})
     return found

@@ -193,11 +193,12 @@ PetscErrorCode Foam::condensedTangent::solve(Vec f, Vec x, bool& solved) const
         VecRestoreArray(right_, &r);
     }
 
-    // Apart, for the profile: the first thing that KSPSolve would do
+    // Apart, for the profile: the first things that KSPSolve would do
     PetscErrorCode code;
     {
         addProfiling(factorisation, "factorisation");
         code = KSPSetUp(solver_);
+        if (code == 0) code = KSPSetUpOnBlocks(solver_);
     }
     KSPConvergedReason reason = KSP_DIVERGED_PC_FAILED;
     if (code == 0)
