@@ -179,6 +179,14 @@ MUTATIONS = (
         "test_cutting.py -k wisps",
     ),
     Mutation(
+        "Newton's method left to crawl",
+        SOLVE,
+        "system.stalled_ == 3",
+        "false",
+        COUPLED,
+        "test_cutting.py -k wisps",
+    ),
+    Mutation(
         "damage at twice the plastic strain",
         "src/rheology/damageModel/triaxialOnsetDamage/triaxialOnsetDamage.H",
         "epsP > epsilonPEq0_ &&",
@@ -440,6 +448,7 @@ def main(names) -> int:
     except BlockingIOError:
         sys.exit(f"mutations: another run of this command is at work in {BASE}")
     fresh_copy()
+    passed: set[str] = set()
     for number, m in enumerate(chosen, 1):
         path = TREE / m.file
         sound = path.read_text()
@@ -448,8 +457,15 @@ def main(names) -> int:
                 f"mutations: {m.name}: {m.file} holds {m.old!r} "
                 f"{sound.count(m.old)} times; once is needed"
             )
-        key = hashlib.sha256(repr((sound, m)).encode()).hexdigest()
+        test = ROOT / "validation" / "tests" / m.test.split()[0]
+        key = hashlib.sha256(
+            repr((sound, test.read_text(), m)).encode()
+        ).hexdigest()
         if seen.get(m.name, {}).get("key") != key:
+            # A test that fails anyway catches nothing
+            if m.test not in passed and failing(m.test):
+                sys.exit(f"mutations: {m.test} fails without {m.name} as well")
+            passed.add(m.test)
             write(path, sound.replace(m.old, m.new), m.build)
             caught = failing(m.test)
             write(path, sound, m.build)

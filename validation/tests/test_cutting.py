@@ -124,20 +124,32 @@ def test_shortcuts_to_the_pressure_save_iterations_and_keep_the_force(folder):
 
 def test_wisps_that_hold_newtons_method_are_eliminated(folder):
     # Steps up to 1.5 mm, in which pressures of cells with eliminateRoom alone
-    # leave Newton's method crawling or stuck: the same steps and force (to
-    # 3e-8) in 163 iterations, in 236 without those of the cells with less
-    case = prepare(
-        folder / "wisps",
-        **COARSE
-        | {"travel": 0.018, "writeTravel": 0.018, "travelStep": 1.5e-3},
-    )
-    with open(case / "system" / "controlDict", "a") as control:
-        control.write("\nmaxCourant 10;\neasyIterations 60;\n")
-    solve(case)
-    steps = read_table(case, "solver", "steps")
-    assert len(steps["rejected"]) == 18
-    assert steps["rejected"][-1] == 0
-    assert steps["NewtonIterations"].sum() < 200
+    # leave Newton's method crawling or stuck. Found 163 iterations; 236 without
+    # those of the cells with less, 209 with them where the line search fails
+    # alone. From the start on they change the way, not the answer: the same
+    # steps, and the same force to 3e-6 (tolerance of Newton's method: 1e-6)
+    iterations, forces = [], []
+    for room in ("1", "0.05"):
+        case = prepare(
+            folder / f"wisps{room}",
+            **COARSE
+            | {"travel": 0.018, "writeTravel": 0.018, "travelStep": 1.5e-3},
+        )
+        replace(
+            case / "system" / "fvSolution",
+            r"\n *eliminateRoom\s[^;]*;",
+            f"\neliminateRoom {room};",
+        )
+        with open(case / "system" / "controlDict", "a") as control:
+            control.write("\nmaxCourant 10;\neasyIterations 60;\n")
+        solve(case)
+        steps = read_table(case, "solver", "steps")
+        assert len(steps["rejected"]) == 18
+        assert steps["rejected"][-1] == 0
+        iterations.append(steps["NewtonIterations"].sum())
+        forces.append(force(case)["axial"][-1])
+    assert iterations[0] < 200
+    assert forces[0] == pytest.approx(forces[1], rel=2e-5)
 
 
 def test_tool_and_platen_are_in_balance(pressed):
