@@ -239,10 +239,17 @@ def pressed(folder):
     return wall_force(case)
 
 
+@pytest.mark.parametrize("axis", ["none", "z"])
 @pytest.mark.parametrize("ranks", [1, 2])
-def test_schwarz_gives_the_answer_of_the_direct_solver(folder, pressed, ranks):
+def test_schwarz_gives_the_answer_of_the_direct_solver(
+    folder, pressed, ranks, axis
+):
     case = pressed_block(
-        folder / f"linear-schwarz{ranks}", 0.3, 0, linearSolver="schwarz"
+        folder / f"linear-schwarz{ranks}{axis}",
+        0.3,
+        0,
+        linearSolver="schwarz",
+        subdomainAxis=axis,
     )
     if ranks == 1:
         run(case, "bolusFoam")

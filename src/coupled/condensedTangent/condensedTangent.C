@@ -4,6 +4,9 @@
 #include "condensedTangent.H"
 #include "profiling.H"
 
+#include <algorithm>
+#include <vector>
+
 namespace Foam
 {
 
@@ -97,6 +100,85 @@ void Foam::condensedTangent::createSolver()
     KSPSetOptionsPrefix(solver_, "bolus_velocity_");
     KSPSetOperators(solver_, A_, A_);
     petscCheck(KSPSetFromOptions(solver_), "petscOptions of fvSolution");
+    if (slabs_.number > 0) setSlabs();
+}
+
+
+void Foam::condensedTangent::setSlabs()
+{
+    const label nd = space_.nd();
+    boolList solved(space_.nNodes(), false);
+    forAll(room_, c)
+    {
+        if (!room_[c]) continue;
+        for (
+            label i = space_.cellStart()[c]; i < space_.cellStart()[c + 1]; ++i
+        )
+        {
+            solved[space_.cellDofs()[i] / nd] = true;
+        }
+    }
+
+    labelList nodes(space_.ownedNodes());
+    label nSolved = 0;
+    for (const label node : nodes) nSolved += solved[node];
+
+    const pointField& points = space_.mesh().points();
+    auto position = [&](const label node)
+    { return points[space_.nodePoint()[node]][slabs_.axis]; };
+    std::sort(
+        nodes.begin(),
+        nodes.end(),
+        [&](const label a, const label b) { return position(a) < position(b); }
+    );
+
+    // Nodes at one position, to a millionth of the mesh, stay together
+    const scalar level = 1e-6 * space_.mesh().bounds().mag();
+    List<DynamicList<PetscInt>> blocks(slabs_.number);
+    scalar last = -GREAT;
+    label below = 0;
+    label counted = 0;
+    for (const label node : nodes)
+    {
+        if (position(node) > last + level) below = counted;
+        last = position(node);
+        const label slab = slabs_.number * below / max(nSolved, 1);
+        blocks[min(slab, slabs_.number - 1)].append(
+            space_.nodeRow()[node] / nd
+        );
+        counted += solved[node];
+    }
+
+    std::vector<IS> slabs;
+    for (DynamicList<PetscInt>& rows : blocks)
+    {
+        if (rows.empty()) continue;
+        std::sort(rows.begin(), rows.end());
+        slabs.push_back(nullptr);
+        ISCreateBlock(
+            PETSC_COMM_SELF,
+            nd,
+            rows.size(),
+            rows.cdata(),
+            PETSC_COPY_VALUES,
+            &slabs.back()
+        );
+    }
+    // Nothing to a solver that is not Schwarz's method
+    PC pc;
+    KSPGetPC(solver_, &pc);
+    petscCheck(
+        PCASMSetLocalSubdomains(pc, slabs.size(), slabs.data(), slabs.data()),
+        "PCASMSetLocalSubdomains"
+    );
+    for (IS& slab : slabs) ISDestroy(&slab);
+
+    // Otherwise those of the caller are taken as they are
+    PetscInt overlap = 1;
+    PetscOptionsGetInt(
+        nullptr, "bolus_velocity_", "-pc_asm_overlap", &overlap, nullptr
+    );
+    PCASMSetOverlap(pc, overlap);
 }
 
 
@@ -256,9 +338,11 @@ PetscErrorCode Foam::condensedTangent::shellSolve(PC pc, Vec f, Vec x)
 Foam::condensedTangent::condensedTangent(
     const nodalSpace& space,
     VecScatter scatter,
-    Vec local
+    Vec local,
+    const subdomainSlabs& slabs
 ) :
     space_(space),
+    slabs_(slabs),
     room_(space.mesh().nCells(), false),
     B_(space.cellDofs().size(), Zero),
     C_(space.cellDofs().size(), Zero),

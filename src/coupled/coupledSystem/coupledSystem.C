@@ -326,6 +326,15 @@ Foam::coupledSystem::coupledSystem(
     subdomains_ = read.wholeNumber(
         "subdomains", "of schwarz, on each processor", {1, true, 1e4, true}, 6
     );
+    const wordList axes({"x", "y", "z", "none"});
+    const label axis = axes.find(read.choice(
+        "subdomainAxis",
+        "along which the subdomains of schwarz lie",
+        axes,
+        "none"
+    ));
+    slabs_.number = axis < 3 ? subdomains_ : 0;
+    slabs_.axis = axis < 3 ? axis : 0;
     linearTolerance_ = read.number(
         "linearTolerance",
         "largest relative residual of the linear solver [-]",
