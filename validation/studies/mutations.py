@@ -147,6 +147,14 @@ MUTATIONS = (
         "test_solver.py -k subdomains_overlap",
     ),
     Mutation(
+        "slabs of Schwarz's method that do not overlap",
+        TANGENT,
+        "PCASMSetOverlap(pc, overlap);",
+        "PCASMSetOverlap(pc, 0);",
+        COUPLED,
+        "test_solver.py -k subdomains_overlap",
+    ),
+    Mutation(
         "closing voids extrapolated from where they are",
         SOLVE,
         "J->extrapolate(c, weight_[c] * tangent.excess);",

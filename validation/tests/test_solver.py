@@ -266,13 +266,20 @@ def test_schwarz_gives_the_answer_of_the_direct_solver(
     assert wall_force(case) == pytest.approx(pressed, rel=1e-5)
 
 
-def test_subdomains_overlap(folder):
-    # Found 468 linear iterations, 1061 where they do not
+@pytest.mark.parametrize("axis", ["none", "z"])
+def test_subdomains_overlap(folder, axis):
+    # Found 468 linear iterations, 1061 where they do not; slabs: 449, 1192. One
+    # subdomain would need as many as Newton's method
     case = pressed_block(
-        folder / "linear-overlap", 0.9, 1e-3, linearSolver="schwarz"
+        folder / f"linear-overlap{axis}",
+        0.9,
+        1e-3,
+        linearSolver="schwarz",
+        subdomainAxis=axis,
     )
     log = run(case, "bolusFoam")
-    assert int(re.findall(r"linear iterations (\d+)", log)[-1]) < 650
+    found = int(re.findall(r"linear iterations (\d+)", log)[-1])
+    assert 400 < found < 650
 
 
 def test_a_failed_linear_solution_costs_its_step_alone(folder):

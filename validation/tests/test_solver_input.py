@@ -125,6 +125,12 @@ BAD = {
         "bolus { linearSolver magic;",
         ["linearSolver", "magic", "direct", "schwarz"],
     ),
+    "axis of the subdomains": (
+        "system/fvSolution",
+        r"bolus \{",
+        "bolus { subdomainAxis radial;",
+        ["subdomainAxis", "radial", "x", "z", "none"],
+    ),
     "unknown friction": (
         "0/U",
         r"type \$friction;",
