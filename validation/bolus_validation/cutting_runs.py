@@ -192,6 +192,31 @@ def spread(run: Run, depth: float) -> float:
     )
 
 
+def carried(run: Run, depth: float) -> float:
+    """Length of bolus along the tool's axis [m], under the tool, at delta/H.
+
+    Of a run in 3D: that of the longest of the columns of cells along the axis
+    which are straight ahead of the tool.
+    """
+    case, p = Case(run.path), run.parameters
+    time = case.nearest(
+        depth * p.height / p.speed, 0.51 * p.writeTravel / p.speed
+    )
+    if time is None:
+        return float("nan")
+    mesh = case.mesh(time)
+    volume = mesh.cell_volumes
+    x, y, _ = mesh.cell_centres.T
+    ahead = (abs(x) < p.radius) & (y < p.centre - p.speed * time)
+    section = np.round(mesh.cell_centres[ahead, :2], 8)
+    _, column = np.unique(section, axis=0, return_inverse=True)
+    bolus = case.field(time, "alpha") * volume
+    filled = np.bincount(column, bolus[ahead]) / np.bincount(
+        column, volume[ahead]
+    )
+    return float(2 / p.ends * p.depth * filled.max())
+
+
 # --- pictures ----------------------------------------------------------------
 
 

@@ -6,6 +6,7 @@ On coarse meshes; ./Allrun validate cutting runs the fine ones.
 """
 
 import shutil
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -18,7 +19,14 @@ from bolus_validation.cutting_cases import (
     force,
     prepare,
 )
-from bolus_validation.cutting_runs import Run, curves, measured_curve, overlay
+from bolus_validation.cutting_runs import (
+    Run,
+    carried,
+    curves,
+    measured_curve,
+    overlay,
+)
+from bolus_validation.cutting_study import first_damage
 from bolus_validation.fields import Case, read_mesh
 from bolus_validation.results import read_table
 from bolus_validation.specimens import replace, run_case, solve
@@ -316,8 +324,25 @@ def test_half_the_thickness_carries_the_force_of_all_of_it(folder):
         )
         solve(case)
         energy = read_table(case, "energyBalance")
-        found[ends] = force(case)["axial"][-1], energy["work"][-1]
+        pressed = Run(case)
+        length = carried(pressed, pressed.depth[-1])
+        found[ends] = force(case)["axial"][-1], energy["work"][-1], length
     assert found[1] == pytest.approx(found[2], rel=1e-3)
+    # Found 30.27 mm of 30 mm: it bulges
+    assert 1.002 < length / pressed.parameters.thickness < 1.05
+
+
+def test_first_damage_is_the_first_step_with_that_part_damaged(tmp_path):
+    table = tmp_path / "postProcessing" / "damagedVolume" / "0"
+    table.mkdir(parents=True)
+    (table / "damagedVolume.dat").write_text(
+        "# Time [s] bolus [m3] damaged [m3] fraction [-]\n"
+        "0.5 2 0 0\n1 2 1e-5 5e-6\n1.5 2 4e-4 2e-4\n"
+    )
+    run = SimpleNamespace(path=tmp_path, parameters=SimpleNamespace(speed=2e-3))
+    assert first_damage(run) == pytest.approx(2)
+    assert first_damage(run, 1e-4) == pytest.approx(3)
+    assert np.isnan(first_damage(run, 1e-3))
 
 
 # --- measured curves ---------------------------------------------------------

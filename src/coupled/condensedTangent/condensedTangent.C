@@ -142,7 +142,7 @@ void Foam::condensedTangent::setSlabs()
     {
         if (position(node) > last + level) below = counted;
         last = position(node);
-        const label slab = slabs_.number * below / max(nSolved, 1);
+        const label slab = slabs_.number * (scalar(below) / max(nSolved, 1));
         blocks[min(slab, slabs_.number - 1)].append(
             space_.nodeRow()[node] / nd
         );
@@ -173,7 +173,7 @@ void Foam::condensedTangent::setSlabs()
     );
     for (IS& slab : slabs) ISDestroy(&slab);
 
-    // Otherwise those of the caller are taken as they are
+    // PETSc takes a caller's subdomains as they are until it is told again
     PetscInt overlap = 1;
     PetscOptionsGetInt(
         nullptr, "bolus_velocity_", "-pc_asm_overlap", &overlap, nullptr

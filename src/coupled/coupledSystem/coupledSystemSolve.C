@@ -31,7 +31,7 @@ void Foam::coupledSystem::setPetsc(const dictionary& dict)
         // of low rank to 1e-3 in their factors is taken so.
         options += "-bolus_velocity_ksp_type gmres"
                    " -bolus_velocity_ksp_pc_side right"
-                   " -bolus_velocity_ksp_gmres_restart 300"
+                   " -bolus_velocity_ksp_gmres_restart 100"
                    " -bolus_velocity_ksp_gmres_cgs_refinement_type"
                    " refine_ifneeded"
                    " -bolus_velocity_ksp_max_it 500"
