@@ -34,6 +34,9 @@ class Block:
     mu: float
     travel: float
     size: float  # of the elements at the tool
+    # Of the contact [E / size]. With 30 it gives way: the force is 0.9 % less
+    # at 0.1 mm, 0.6 % at 0.3 mm, and CalculiX stops at 0.6 mm
+    stiffness: float = 300.0
 
 
 def program() -> str | None:
@@ -128,7 +131,7 @@ def deck(b: Block) -> str:
 
     # The part of the block's top that the tool may reach
     near = block.element[x[::2][:-1] < 1.5 * b.diameter, -1]
-    stiffness = 30 * b.E / b.size
+    stiffness = b.stiffness * b.E / b.size
     return (
         "*NODE, NSET=ALL\n"
         + block.nodes()
