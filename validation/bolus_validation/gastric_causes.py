@@ -1,12 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 the bolusFoam developers
-"""Why case A differs from the paper: one assumption changed at a time.
+"""Why cases A and B differ from the paper: one assumption changed at a time.
 
 The paper prints neither the stomach's radius nor how its bolus is held, and its
 contact, its fracture and its density are those of another code. Each row is
-case A on 1 mm with one of these changed; what the paper's text says of it is
-beside it. The runs (a minute or two each) are kept in
-run/validate/gastric/runs.
+case A on 1 mm with one of these changed, or case B in other stomachs; what the
+paper's text says of it is beside it. The runs (a minute or two each) are kept
+in run/validate/gastric/runs.
 """
 
 from pathlib import Path
@@ -17,8 +17,10 @@ matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
 
+from bolus_validation.fields import Case  # noqa: E402
 from bolus_validation.motility import PROFILE  # noqa: E402
 from bolus_validation.report import CASE_A, Run  # noqa: E402
+from bolus_validation.results import TIME_TOLERANCE  # noqa: E402
 from bolus_validation.studies import Findings, kept_run, study  # noqa: E402
 
 COARSE = {"resolution": 1e-3, "pylorusRefinement": 2.5}
@@ -83,6 +85,19 @@ CAUSES = {
     "the paper's density": {"inertia": 100},
 }
 
+# Those that case B, which has no friction and should not break, is run with
+STOMACHS = (
+    "as the tutorial",
+    "wider antrum",
+    "narrower antrum",
+    "bolus 4 mm on",
+    "wave by Eq. 14 to the letter",
+    "occlusion 0.9 from 235 mm on",
+    "occlusion 0.9 from 230 mm on",
+    "from 235 mm on, wider antrum",
+    "from 230 mm on, wider antrum",
+)
+
 
 def _when(run: Run, name: str, reached) -> float:
     """First time at which a table reached(it); inf: never."""
@@ -109,22 +124,41 @@ def _peak(run: Run, t0: float, t1: float) -> float:
     return float("nan") if found is None else found
 
 
-def _work(run: Run) -> float:
-    found = run.series("externalWork", "work_perMass", 32)
+def _value(run: Run, table: str, column: str, time: float) -> float:
+    found = run.series(table, column, time)
     return float("nan") if found is None else found[0]
+
+
+def _work(run: Run) -> float:
+    return _value(run, "externalWork", "work_perMass", 32)
 
 
 def _agree(run: Run) -> float:
     return sum(row.find(run)[1] is True for row in CASE_A)
 
 
+def _first_damage(run: Run) -> float:
+    return _when(run, "damagedVolume", lambda table: table["fraction"] > 0)
+
+
+def _retained(run: Run) -> float:
+    return 100 * _part(run, "retainedMass", "retained", 7.5, 32)
+
+
+def _front(run: Run, time: float) -> float:
+    """Largest x of the bolus [m]."""
+    case = Case(run.path)
+    written = case.nearest(time, TIME_TOLERANCE)
+    if written is None:
+        return float("nan")
+    bolus = case.field(written, "alpha") > 0.5
+    return float(case.mesh(written).cell_centres[bolus, 0].max())
+
+
 # Column: (what the paper says, of a run)
 FIGURES = {
     "rows that agree": (f"{len(CASE_A)}", _agree),
-    "first damage [s]": (
-        "7.5",
-        lambda run: _when(run, "damagedVolume", lambda t: t["fraction"] > 0),
-    ),
+    "first damage [s]": ("7.5", _first_damage),
     "η in the core at 7.5 s": (
         "> 1",
         lambda run: _at(run, 7.5, "triaxialityMaxCore"),
@@ -152,10 +186,7 @@ FIGURES = {
     ),
     "peak force to 18 s [N/g]": ("-", lambda run: _peak(run, 0, 18)),
     "work [mJ/g]": ("-", _work),
-    "retained at 32 s [%]": (
-        "50",
-        lambda run: 100 * _part(run, "retainedMass", "retained", 7.5, 32),
-    ),
+    "retained at 32 s [%]": ("50", _retained),
     "surface at 32 s [%]": (
         "-18",
         lambda run: 100 * _part(run, "freeSurface", "externalArea", 7.5, 32)
@@ -164,9 +195,25 @@ FIGURES = {
 }
 
 
-def picture(numbers: dict, target: Path) -> None:
+FIGURES_B = {
+    "first damage [s]": ("never", _first_damage),
+    "damaged at 18 s [%]": (
+        "0",
+        lambda run: 100 * _value(run, "damagedVolume", "fraction", 18),
+    ),
+    "front at 9 s [mm]": ("250", lambda run: 1e3 * _front(run, 9)),
+    "peak force to 18 s [N/g]": (
+        "least",
+        lambda run: _peak(run, 0, 18),
+    ),
+    "work [mJ/g]": ("least", _work),
+    "retained at 32 s [%]": ("least", _retained),
+}
+
+
+def picture(numbers: dict, figures: dict, target: Path) -> None:
     """The table of all figures; coloured where they leave the tutorial's."""
-    names = list(FIGURES)
+    names = list(figures)
     labels = list(numbers)
     values = np.array([[numbers[c][n] for n in names] for c in labels])
     base = values[0]
@@ -182,7 +229,7 @@ def picture(numbers: dict, target: Path) -> None:
         axis.text(j, i, f"{number:.3g}", ha="center", va="center", fontsize=8)
     axis.set_xticks(
         range(len(names)),
-        [f"{n}\n(paper: {FIGURES[n][0]})" for n in names],
+        [f"{n}\n(paper: {figures[n][0]})" for n in names],
         rotation=40,
         ha="left",
         fontsize=8,
@@ -194,6 +241,23 @@ def picture(numbers: dict, target: Path) -> None:
     plt.close(figure)
 
 
+def vary(found: Findings, case: str, causes, figures: dict) -> dict:
+    """Run a case on 1 mm with each of the causes: {cause: {name: number}}."""
+    numbers = {}
+    for cause in causes:
+        path = kept_run(
+            f"gastric/case{case}", "gastric", **(COARSE | CAUSES[cause])
+        )
+        gave_up = path / "stopped"
+        if gave_up.exists():
+            found.remarks.append(f"{case}, {cause}: {gave_up.read_text()}")
+            numbers[cause] = dict.fromkeys(figures, float("nan"))
+            continue
+        run = Run(path)
+        numbers[cause] = {name: of(run) for name, (_, of) in figures.items()}
+    return numbers
+
+
 @study(
     "causes",
     "E",
@@ -202,18 +266,34 @@ def picture(numbers: dict, target: Path) -> None:
 )
 def causes(folder: Path, quick: bool) -> Findings:
     found = Findings()
-    numbers = {}
-    for cause, settings in CAUSES.items():
-        case = kept_run("gastric/caseA", "gastric", **(COARSE | settings))
-        gave_up = case / "stopped"
-        if gave_up.exists():
-            found.remarks.append(f"{cause}: {gave_up.read_text()}")
-            numbers[cause] = dict.fromkeys(FIGURES, float("nan"))
-            continue
-        run = Run(case)
-        numbers[cause] = {name: of(run) for name, (_, of) in FIGURES.items()}
-        for name, number in numbers[cause].items():
+    numbers = vary(found, "A", CAUSES, FIGURES)
+    for cause, of in numbers.items():
+        for name, number in of.items():
             found.row(f"{name}: {cause}", "-", number)
-    picture(numbers, folder / "causes.png")
+    picture(numbers, FIGURES, folder / "causes.png")
+    found.picture = "causes.png"
+    return found
+
+
+@study(
+    "causes_B",
+    "E",
+    "Case B on 1 mm in other stomachs, against case A in the same",
+    "what the paper says in words; for information",
+)
+def causes_b(folder: Path, quick: bool) -> Findings:
+    found = Findings()
+    numbers = vary(found, "B", STOMACHS, FIGURES_B)
+    rough = vary(found, "A", STOMACHS, FIGURES_B)
+    figures = dict(FIGURES_B)
+    for name in list(FIGURES_B)[-3:]:
+        over = f"{name.split(' [')[0]}, over A's"
+        figures[over] = ("< 1", None)
+        for cause, of in numbers.items():
+            of[over] = of[name] / rough[cause][name]
+    for cause, of in numbers.items():
+        for name, number in of.items():
+            found.row(f"{name}: {cause}", "-", number)
+    picture(numbers, figures, folder / "causes.png")
     found.picture = "causes.png"
     return found
