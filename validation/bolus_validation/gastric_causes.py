@@ -81,6 +81,7 @@ CAUSES = {
     "occlusion 0.9 from 230 mm on": occluded(230),
     "from 235 mm on, wider antrum": occluded(235) | WIDER,
     "from 230 mm on, wider antrum": occluded(230) | WIDER,
+    "from 230 mm on, 0.1 under tension": occluded(230) | {"tensileStrain": 0.1},
     "density of food": {"inertia": 1},
     "the paper's density": {"inertia": 100},
 }
@@ -96,6 +97,8 @@ STOMACHS = (
     "occlusion 0.9 from 230 mm on",
     "from 235 mm on, wider antrum",
     "from 230 mm on, wider antrum",
+    "0.1 of strain under tension",
+    "from 230 mm on, 0.1 under tension",
 )
 
 
@@ -278,7 +281,7 @@ def causes(folder: Path, quick: bool) -> Findings:
 @study(
     "causes_B",
     "E",
-    "Case B on 1 mm in other stomachs, against case A in the same",
+    "Case B on 1 mm, in other stomachs too, against case A in the same",
     "what the paper says in words; for information",
 )
 def causes_b(folder: Path, quick: bool) -> Findings:
