@@ -78,6 +78,13 @@ class Run:
             else np.nan
         )
 
+    def written(self, depth: float) -> tuple[Case, float | None]:
+        """The case, and its written time nearest to delta/H [s]."""
+        case, p = Case(self.path), self.parameters
+        return case, case.nearest(
+            depth * p.height / p.speed, 0.51 * p.writeTravel / p.speed
+        )
+
     @property
     def cpu(self) -> float:
         """Computing time [s]."""
@@ -160,13 +167,10 @@ def local_rate(run: Run, depth: float) -> float:
     Of the cells of bolus around the lower half of the tool, by volume, at
     delta/H.
     """
-    case, p = Case(run.path), run.parameters
-    time = case.nearest(
-        depth * p.height / p.speed, 0.51 * p.writeTravel / p.speed
-    )
+    case, time = run.written(depth)
     if time is None:
         return float("nan")
-    mesh = case.mesh(time)
+    mesh, p = case.mesh(time), run.parameters
     centre = np.array([0, p.centre - p.speed * time])
     away = mesh.cell_centres[:, :2] - centre
     near = (
@@ -180,10 +184,7 @@ def local_rate(run: Run, depth: float) -> float:
 
 def spread(run: Run, depth: float) -> float:
     """Part of the bolus whose plastic strain is above 0.1 at delta/H."""
-    case, p = Case(run.path), run.parameters
-    time = case.nearest(
-        depth * p.height / p.speed, 0.51 * p.writeTravel / p.speed
-    )
+    case, time = run.written(depth)
     if time is None:
         return float("nan")
     volume = case.field(time, "alpha") * case.mesh(time).cell_volumes
@@ -192,19 +193,16 @@ def spread(run: Run, depth: float) -> float:
     )
 
 
-def carried(run: Run, depth: float) -> float:
-    """Length of bolus along the tool's axis [m], under the tool, at delta/H.
+def longest_below(run: Run, depth: float) -> float:
+    """Length of bolus along the tool's axis [m], below the tool, at delta/H.
 
     Of a run in 3D: that of the longest of the columns of cells along the axis
     which are straight ahead of the tool.
     """
-    case, p = Case(run.path), run.parameters
-    time = case.nearest(
-        depth * p.height / p.speed, 0.51 * p.writeTravel / p.speed
-    )
+    case, time = run.written(depth)
     if time is None:
         return float("nan")
-    mesh = case.mesh(time)
+    mesh, p = case.mesh(time), run.parameters
     volume = mesh.cell_volumes
     x, y, _ = mesh.cell_centres.T
     ahead = (abs(x) < p.radius) & (y < p.centre - p.speed * time)

@@ -34,8 +34,8 @@ class Block:
     mu: float
     travel: float
     size: float  # of the elements at the tool
-    # Of the contact [E / size]. With 30 it gives way: the force is 0.9 % less
-    # at 0.1 mm, 0.6 % at 0.3 mm, and CalculiX stops at 0.6 mm
+    # Of the contact [E / size]. With 30 it gives way: the force is 1 % less
+    # at 0.1 to 0.3 mm, and CalculiX stops at 0.6 mm
     stiffness: float = 300.0
 
 

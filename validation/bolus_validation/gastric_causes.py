@@ -205,10 +205,7 @@ FIGURES_B = {
         lambda run: 100 * _value(run, "damagedVolume", "fraction", 18),
     ),
     "front at 9 s [mm]": ("250", lambda run: 1e3 * _front(run, 9)),
-    "peak force to 18 s [N/g]": (
-        "least",
-        lambda run: _peak(run, 0, 18),
-    ),
+    "peak force to 18 s [N/g]": ("least", lambda run: _peak(run, 0, 18)),
     "work [mJ/g]": ("least", _work),
     "retained at 32 s [%]": ("least", _retained),
 }
@@ -261,6 +258,15 @@ def vary(found: Findings, case: str, causes, figures: dict) -> dict:
     return numbers
 
 
+def tell(found: Findings, numbers: dict, figures: dict, folder: Path):
+    """Rows and the picture of what vary has found."""
+    for cause, of in numbers.items():
+        for name, number in of.items():
+            found.row(f"{name}: {cause}", "-", number)
+    picture(numbers, figures, folder / "causes.png")
+    found.picture = "causes.png"
+
+
 @study(
     "causes",
     "E",
@@ -269,12 +275,7 @@ def vary(found: Findings, case: str, causes, figures: dict) -> dict:
 )
 def causes(folder: Path, quick: bool) -> Findings:
     found = Findings()
-    numbers = vary(found, "A", CAUSES, FIGURES)
-    for cause, of in numbers.items():
-        for name, number in of.items():
-            found.row(f"{name}: {cause}", "-", number)
-    picture(numbers, FIGURES, folder / "causes.png")
-    found.picture = "causes.png"
+    tell(found, vary(found, "A", CAUSES, FIGURES), FIGURES, folder)
     return found
 
 
@@ -287,16 +288,13 @@ def causes(folder: Path, quick: bool) -> Findings:
 def causes_b(folder: Path, quick: bool) -> Findings:
     found = Findings()
     numbers = vary(found, "B", STOMACHS, FIGURES_B)
-    rough = vary(found, "A", STOMACHS, FIGURES_B)
+    least = {n: x for n, x in FIGURES_B.items() if x[0] == "least"}
+    rough = vary(found, "A", STOMACHS, least)
     figures = dict(FIGURES_B)
-    for name in list(FIGURES_B)[-3:]:
+    for name in least:
         over = f"{name.split(' [')[0]}, over A's"
         figures[over] = ("< 1", None)
         for cause, of in numbers.items():
             of[over] = of[name] / rough[cause][name]
-    for cause, of in numbers.items():
-        for name, number in of.items():
-            found.row(f"{name}: {cause}", "-", number)
-    picture(numbers, figures, folder / "causes.png")
-    found.picture = "causes.png"
+    tell(found, numbers, figures, folder)
     return found

@@ -21,8 +21,8 @@ from bolus_validation.cutting_cases import (
 )
 from bolus_validation.cutting_runs import (
     Run,
-    carried,
     curves,
+    longest_below,
     measured_curve,
     overlay,
 )
@@ -325,7 +325,7 @@ def test_half_the_thickness_carries_the_force_of_all_of_it(folder):
         solve(case)
         energy = read_table(case, "energyBalance")
         pressed = Run(case)
-        length = carried(pressed, pressed.depth[-1])
+        length = longest_below(pressed, pressed.depth[-1])
         found[ends] = force(case)["axial"][-1], energy["work"][-1], length
     assert found[1] == pytest.approx(found[2], rel=1e-3)
     # Found 30.27 mm of 30 mm: it bulges
