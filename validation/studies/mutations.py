@@ -31,6 +31,7 @@ TANGENT = "src/coupled/condensedTangent/condensedTangent.C"
 ENERGY = "src/coupled/coupledSystem/coupledSystemEnergy.C"
 SPACE = "src/coupled/nodalSpace/nodalSpace.C"
 MEMORY = "src/coupled/historyTransport/historyTransportMemory.C"
+FLUX = "src/coupled/historyTransport/historyTransportFlux.C"
 TRANSPORT = "src/coupled/historyTransport/historyTransport.C"
 POINT = "src/rheology/elastoViscoPlastic/elastoViscoPlasticI.H"
 SOLVER = ("applications/solvers/bolusFoam",)
@@ -308,11 +309,36 @@ MUTATIONS = (
     ),
     Mutation(
         "transport loses a thousandth of what leaves a cell",
-        TRANSPORT,
-        "m[own[f]] -= F[f] * dt;",
-        "m[own[f]] -= 1.001 * F[f] * dt;",
+        MEMORY,
+        "cells[own[f]] -= amount[f] * dt;",
+        "cells[own[f]] -= 1.001 * amount[f] * dt;",
         COUPLED,
         "test_solver.py -k mass_stays",
+    ),
+    Mutation(
+        "short sub-steps forget what slow cells give the fast ones",
+        MEMORY,
+        "    for (const label f : z.given) add(f);\n}\n\n\n"
+        "void Foam::historyTransport::faceValues",
+        "}\n\n\nvoid Foam::historyTransport::faceValues",
+        COUPLED,
+        "test_transport.py -k mass_is_kept",
+    ),
+    Mutation(
+        "fast cells leave nothing for what slow ones were to get",
+        FLUX,
+        "if (z.shared) leaveGiven(z, dt, left);",
+        "",
+        COUPLED,
+        "test_transport.py -k mass_is_kept",
+    ),
+    Mutation(
+        "all cells take the short sub-steps",
+        "src/coupled/historyTransport/historyTransportZones.C",
+        "if (work < least)",
+        "if (work < 0 * least)",
+        COUPLED,
+        "test_transport.py -k fast_cells",
     ),
     Mutation(
         "memory is carried by the receiving cell's value",

@@ -55,8 +55,9 @@ Foam::progress::progress(
         file_() << "# time [s]" << tab << "deltaT [s]" << tab
                 << "NewtonIterations [-]" << tab << "rejected [-]" << tab
                 << "lagged [-]" << tab << "courant [-]" << tab << "subSteps [-]"
-                << tab << "massError [-]" << tab << "alphaMin [-]" << tab
-                << "alphaMax [-]" << tab << "cpuTime [s]" << endl;
+                << tab << "slowSubSteps [-]" << tab << "massError [-]" << tab
+                << "alphaMin [-]" << tab << "alphaMax [-]" << tab
+                << "cpuTime [s]" << endl;
     }
 }
 
@@ -104,8 +105,8 @@ void Foam::progress::step(
         file_() << time_.value() << tab << time_.deltaTValue() << tab
                 << solved.iterations << tab << control_.rejected() << tab
                 << lagged_ << tab << moved.courant << tab << moved.subSteps
-                << tab << massError_ << tab << low << tab << high << tab
-                << time_.elapsedCpuTime() << endl;
+                << tab << moved.slowSubSteps << tab << massError_ << tab << low
+                << tab << high << tab << time_.elapsedCpuTime() << endl;
     }
 
     // Not time_.run(), which would execute the function objects

@@ -228,6 +228,9 @@ void Foam::coupledSystem::closeVoid(
 
 void Foam::coupledSystem::followTurn(const label c, cellResult& r) const
 {
+    // Void has no stress
+    if (a_[c] <= SMALL) return;
+
     const scalar along = r.r.s && sLast_[c];
     const scalar norms = mag(r.r.s) * mag(sLast_[c]);
     sLast_[c] = r.r.s;

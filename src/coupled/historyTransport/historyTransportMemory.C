@@ -9,118 +9,133 @@
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
 void Foam::historyTransport::gradient(
+    const zone& z,
     const scalarField& q,
     const scalarField& qNei,
-    const boolList& use,
     vectorField& g
 ) const
 {
     const leastSquaresVectors& ls = leastSquaresVectors::New(mesh_);
-    const surfaceVectorField& pVec = ls.pVectors();
-    const surfaceVectorField& nVec = ls.nVectors();
-    const labelUList& own = mesh_.owner();
-    const labelUList& nei = mesh_.neighbour();
+    const vectorField& pVec = ls.pVectors().primitiveField();
+    const vectorField& nVec = ls.nVectors().primitiveField();
+    const label nInternal = mesh_.nInternalFaces();
+    const labelList& own = mesh_.faceOwner();
+    const labelList& nei = mesh_.faceNeighbour();
 
-    g = vector(Zero);
-    forAll(nei, f)
+    for (const label c : z.cells) g[c] = vector(Zero);
+    auto add = [&](const label f)
     {
-        if (!use[f]) continue;
-        const scalar d = q[nei[f]] - q[own[f]];
-        g[own[f]] += d * pVec[f];
-        g[nei[f]] -= d * nVec[f];
-    }
-    forAll(mesh_.boundary(), patchi)
-    {
-        const fvPatch& patch = mesh_.boundary()[patchi];
-        if (!patch.coupled()) continue;
-        forAll(patch, i)
+        if (!full_[f]) return;
+        const label P = own[f];
+        if (f < nInternal)
         {
-            const label f = patch.start() + i;
-            if (!use[f]) continue;
-            const label c = patch.faceCells()[i];
-            g[c] += (qNei[f - mesh_.nInternalFaces()] - q[c])
-                * pVec.boundaryField()[patchi][i];
+            const scalar d = q[nei[f]] - q[P];
+            g[P] += d * pVec[f];
+            g[nei[f]] -= d * nVec[f];
         }
-    }
+        else if (coupled_[f])
+        {
+            const label b = f - nInternal;
+            const label i = f - mesh_.boundary()[patch_[b]].start();
+            g[P] +=
+                (qNei[b] - q[P]) * ls.pVectors().boundaryField()[patch_[b]][i];
+        }
+    };
+    for (const label f : z.faces) add(f);
+    for (const label f : z.given) add(f);
+}
+
+
+void Foam::historyTransport::balance(
+    const zone& z,
+    const scalar dt,
+    const scalarField& amount,
+    scalarField& cells
+) const
+{
+    const label nInternal = mesh_.nInternalFaces();
+    const labelList& own = mesh_.faceOwner();
+    const labelList& nei = mesh_.faceNeighbour();
+    auto add = [&](const label f)
+    {
+        cells[own[f]] -= amount[f] * dt;
+        if (f < nInternal) cells[nei[f]] += amount[f] * dt;
+    };
+    for (const label f : z.faces) add(f);
+    for (const label f : z.given) add(f);
 }
 
 
 void Foam::historyTransport::faceValues(
+    const zone& z,
     const scalarField& q,
-    const scalarField& F,
-    const vectorField& delta,
-    const boolList& full,
-    const scalarField& stays,
     scalarField& qF
-) const
+)
 {
     const label nInternal = mesh_.nInternalFaces();
     const labelList& own = mesh_.faceOwner();
     const labelList& nei = mesh_.faceNeighbour();
     const scalarField qNei(neighbour(q));
 
-    vectorField g(q.size());
-    gradient(q, qNei, full, g);
-    const scalarField gx(neighbour(g.component(0)));
-    const scalarField gy(neighbour(g.component(1)));
-    const scalarField gz(neighbour(g.component(2)));
+    gradient(z, q, qNei, g_);
+    const vectorField gNei(neighbour(g_));
 
     // The slope may not count on values that no neighbour has
-    scalarField least(q);
-    scalarField most(q);
-    forAll(full, f)
+    for (const label c : z.cells) least_[c] = most_[c] = q[c];
+    auto see = [&](const label f)
     {
-        if (!full[f]) continue;
+        if (!full_[f]) return;
         const label P = own[f];
         const bool internal = f < nInternal;
         const scalar qN = internal ? q[nei[f]] : qNei[f - nInternal];
-        least[P] = min(least[P], qN);
-        most[P] = max(most[P], qN);
+        least_[P] = min(least_[P], qN);
+        most_[P] = max(most_[P], qN);
         if (internal)
         {
-            least[nei[f]] = min(least[nei[f]], q[P]);
-            most[nei[f]] = max(most[nei[f]], q[P]);
+            const label N = nei[f];
+            least_[N] = min(least_[N], q[P]);
+            most_[N] = max(most_[N], q[P]);
         }
-    }
-    const scalarField leastNei(neighbour(least));
-    const scalarField mostNei(neighbour(most));
-    const scalarField staysNei(neighbour(stays));
+    };
+    for (const label f : z.faces) see(f);
+    for (const label f : z.given) see(f);
+    const scalarField leastNei(neighbour(least_));
+    const scalarField mostNei(neighbour(most_));
+    const scalarField staysNei(neighbour(stays_));
 
     // What an open boundary lets in has no memory
     auto at = [&](const scalarField& cells, const scalarField& beyond, label f)
     {
         return f < nInternal ? cells[nei[f]]
-            : mesh_.boundary()[patch_[f - nInternal]].coupled()
-            ? beyond[f - nInternal]
-            : scalar(0);
+            : coupled_[f]    ? beyond[f - nInternal]
+                             : scalar(0);
     };
 
-    forAll(F, f)
+    for (const label f : z.faces)
     {
         const label P = own[f];
-        const bool forward = F[f] > 0;
+        const bool forward = F_[f] > 0;
         const scalar qN = at(q, qNei, f);
         const scalar qD = forward ? q[P] : qN;
         qF[f] = qD;
-        if (F[f] == 0 || !full[f]) continue;
+        if (F_[f] == 0 || !full_[f]) continue;
 
-        const label b = f - nInternal;
-        const vector gD = forward ? g[P]
-            : f < nInternal       ? g[nei[f]]
-                                  : vector(gx[b], gy[b], gz[b]);
+        const vector& gD = forward ? g_[P]
+            : f < nInternal        ? g_[nei[f]]
+                                   : gNei[f - nInternal];
 
         // Differences on the downwind side and, from the gradient, upwind
         const scalar sign = forward ? 1 : -1;
         const scalar down = sign * (qN - q[P]);
-        const scalar up = 2 * sign * (gD & delta[f]) - down;
+        const scalar up = 2 * sign * (gD & delta_[f]) - down;
         if (up * down <= 0) continue;
 
         // What leaves with more than the cell's value, leaves the rest with
         // less: no less than a neighbour has
         const scalar room = down > 0
-            ? qD - (forward ? least[P] : at(least, leastNei, f))
-            : (forward ? most[P] : at(most, mostNei, f)) - qD;
-        const scalar rest = forward ? stays[P] : at(stays, staysNei, f);
+            ? qD - (forward ? least_[P] : at(least_, leastNei, f))
+            : (forward ? most_[P] : at(most_, mostNei, f)) - qD;
+        const scalar rest = forward ? stays_[P] : at(stays_, staysNei, f);
         const scalar bound = room * min(rest / max(1 - rest, SMALL), scalar(1));
         const scalar slope =
             min(min(mag(up + 2 * down) / 3, 2 * mag(up)),
@@ -130,72 +145,69 @@ void Foam::historyTransport::faceValues(
 }
 
 
-void Foam::historyTransport::moveMemory(
-    const scalarField& F,
-    const scalar dt,
-    const scalarField& massOld,
-    const scalarField& massNew,
-    const vectorField& delta,
-    const boolList& full
-)
+void Foam::historyTransport::moveMemory(const zone& z, const scalar dt)
 {
     const label nInternal = mesh_.nInternalFaces();
     const labelList& own = mesh_.faceOwner();
     const labelList& nei = mesh_.faceNeighbour();
+    const scalarField& V = mesh_.V();
 
-    auto move = [&](const scalarField& q, const scalarField& qF)
+    auto move = [&](scalarField& q, const scalarField& qF)
     {
-        scalarField result(massOld * q);
-        forAll(F, f)
+        for (const label c : z.cells) carried_[c] = massOld_[c] * q[c];
+        for (const label f : z.faces) amount_[f] = F_[f] * qF[f];
+        for (const label f : z.given) amount_[f] = F_[f] * qF[f];
+        balance(z, dt, amount_, carried_);
+        for (const label c : z.moved)
         {
-            const scalar amount = F[f] * qF[f] * dt;
-            result[own[f]] -= amount;
-            if (f < nInternal) result[nei[f]] += amount;
+            q[c] = massNew_[c] > 1e-12 * V[c] ? carried_[c] / massNew_[c] : 0;
         }
-        forAll(result, c)
-        {
-            result[c] =
-                massNew[c] > 1e-12 * mesh_.V()[c] ? result[c] / massNew[c] : 0;
-        }
-        return result;
     };
 
     // Part of a cell's mass that stays in it
-    scalarField stays(massOld.size(), Zero);
-    forAll(F, f)
+    for (const label c : z.cells) stays_[c] = 0;
+    auto leave = [&](const label f)
     {
-        if (F[f] > 0)
-            stays[own[f]] += F[f] * dt;
+        if (F_[f] > 0)
+            stays_[own[f]] += F_[f] * dt;
         else if (f < nInternal)
-            stays[nei[f]] -= F[f] * dt;
-    }
-    forAll(stays, c)
+            stays_[nei[f]] -= F_[f] * dt;
+    };
+    for (const label f : z.faces) leave(f);
+    for (const label f : z.given) leave(f);
+    for (const label c : z.cells)
     {
-        const scalar all = max(massOld[c], 1e-12 * mesh_.V()[c]);
-        stays[c] = max(1 - stays[c] / all, scalar(0));
+        const scalar all = max(massOld_[c], 1e-12 * V[c]);
+        stays_[c] = max(1 - stays_[c] / all, scalar(0));
     }
 
     // Heun: faces at the start, and once more with what comes of that; not
-    // where a cell empties, whose rest would take the difference alone
-    const scalarField staysNei(neighbour(stays));
-    boolList heun(full);
-    forAll(heun, f)
+    // where a cell empties, whose rest would take the difference alone, nor
+    // where a cell is not moved now
+    for (const label c : z.cells) calm_[c] = 0;
+    for (const label c : z.moved) calm_[c] = stays_[c];
+    const scalarField calmNei(neighbour(calm_));
+    for (const label f : z.faces)
     {
-        const scalar beyond =
-            f < nInternal ? stays[nei[f]] : staysNei[f - nInternal];
-        heun[f] = full[f] && min(stays[own[f]], beyond) > 0.5;
+        heun_[f] = full_[f]
+            && min(calm_[own[f]],
+                   f < nInternal ? calm_[nei[f]] : calmNei[f - nInternal])
+                > 0.5;
     }
-    scalarField first(F.size());
-    scalarField second(F.size());
-    for (scalarField& q : q_)
+    for (const label d : used_)
     {
-        faceValues(q, F, delta, full, stays, first);
-        faceValues(move(q, first), F, delta, full, stays, second);
-        forAll(first, f)
+        scalarField& q = q_[d];
+        scalarField& qF = qF_[d];
+        faceValues(z, q, qF);
+        const scalarField before(q, z.moved);
+        move(q, qF);
+        faceValues(z, q, second_);
+        UIndirectList<scalar>(q, z.moved) = before;
+        for (const label f : z.faces)
         {
-            if (heun[f]) first[f] = 0.5 * (first[f] + second[f]);
+            if (heun_[f]) qF[f] = 0.5 * (qF[f] + second_[f]);
         }
-        q = move(q, first);
+        move(q, qF);
     }
 }
 
