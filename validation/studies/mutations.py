@@ -330,7 +330,7 @@ MUTATIONS = (
         "if (z.shared) leaveGiven(z, dt, left);",
         "",
         COUPLED,
-        "test_transport.py -k mass_is_kept",
+        "test_cases.py -k balanced",
     ),
     Mutation(
         "all cells take the short sub-steps",

@@ -265,6 +265,9 @@ Foam::coupledSystem::coupledSystem(
     maxIterations_ = read.wholeNumber(
         "maxIterations", "of Newton's method", {1, true, 1e5, true}, 60
     );
+    fullSteps_ = read.wholeNumber(
+        "fullSteps", "iterations without line search", {0, true, 1e5, true}, 20
+    );
     lagFrictionBelow_ = read.number(
         "lagFrictionBelow",
         "longest step whose friction may be lagged [s]",

@@ -362,11 +362,11 @@ PetscErrorCode Foam::coupledSystem::convergedFunction(
     {
         *reason = SNES_CONVERGED_FNORM_ABS;
     }
-    else if (it >= system.maxIterations_)
+    else if (it >= (system.leap_ ? system.fullSteps_ : system.maxIterations_))
     {
         *reason = SNES_DIVERGED_MAX_IT;
     }
-    else if (system.mayEliminateMore() && system.stalled_ == 3)
+    else if (system.mayGiveWay() && system.stalled_ == 3)
     {
         *reason = SNES_DIVERGED_LINE_SEARCH;
     }
@@ -376,24 +376,74 @@ PetscErrorCode Foam::coupledSystem::convergedFunction(
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
+SNESConvergedReason Foam::coupledSystem::iterate()
+{
+    stalled_ = 0;
+    {
+        const trapsOff noTraps;
+        petscCheck(SNESSolve(snes_, nullptr, x_), "SNESSolve");
+    }
+    SNESConvergedReason reason;
+    PetscInt iterations;
+    SNESGetConvergedReason(snes_, &reason);
+    SNESGetIterationNumber(snes_, &iterations);
+    report_.iterations += iterations;
+    return reason;
+}
+
+
+SNESConvergedReason Foam::coupledSystem::leap()
+{
+    SNESLineSearch search;
+    SNESGetLineSearch(snes_, &search);
+    SNESLineSearchType type;
+    SNESLineSearchGetType(search, &type);
+    const string given(type); // SetType lets go of it
+    petscVec start;
+    VecDuplicate(x_, start.set());
+    VecCopy(x_, start);
+    const scalarField shift(shift_);
+
+    mayLeap_ = false;
+    leap_ = true;
+    SNESLineSearchSetType(search, SNESLINESEARCHBASIC);
+    const SNESConvergedReason reason = iterate();
+    SNESLineSearchSetType(search, given.c_str());
+    leap_ = false;
+
+    if (reason < 0)
+    {
+        VecCopy(start, x_);
+        shift_ = shift;
+        gather(x_);
+        qLast_ = q_;
+    }
+    return reason;
+}
+
+
 SNESConvergedReason Foam::coupledSystem::newton()
 {
     // The secants (see assembleCell, followTurn) and closeVoid may lead uphill;
-    // then the tangent takes over from there, and so on. Before that, pressures
-    // of cells with less room follow at once as well: in a step of any length a
-    // few of them can hold the line search of all.
-    SNESConvergedReason reason;
-    PetscInt iterations;
+    // then the tangent takes over from there, and so on. Before that, full
+    // steps: the residual has corners (yield, slip, contact), and a line
+    // search may find no way down from one, where a full step passes it. Where
+    // that fails, pressures of cells with less room follow at once as well: in
+    // a step of any length a few of them can hold the line search of all.
     secant_ = true;
+    leap_ = false;
+    mayLeap_ = fullSteps_ > 0;
     eliminateFrom_ = eliminateRoom_;
+    SNESConvergedReason reason;
     for (label attempt = 0; attempt < 4; ++attempt)
     {
-        stalled_ = 0;
-        const trapsOff noTraps;
-        petscCheck(SNESSolve(snes_, nullptr, x_), "SNESSolve");
-        SNESGetConvergedReason(snes_, &reason);
-        SNESGetIterationNumber(snes_, &iterations);
-        report_.iterations += iterations;
+        reason = iterate();
+        if (reason > 0 || reason == SNES_DIVERGED_FNORM_NAN) break;
+        if (mayLeap_)
+        {
+            const SNESConvergedReason leapt = leap();
+            if (leapt > 0) return leapt;
+        }
         if (reason != SNES_DIVERGED_LINE_SEARCH) break;
         if (mayEliminateMore())
         {

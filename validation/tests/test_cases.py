@@ -1,0 +1,71 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Copyright (C) 2026 the bolusFoam developers
+"""Cases A to D, the whole 32 s, on cells of 2 mm: their order, and the books.
+
+So coarse that no figure means much; the order is that of the finer meshes.
+"""
+
+import pytest
+from bolus_validation.gastric_study import figures
+from bolus_validation.results import read_table
+from bolus_validation.specimens import run_case
+
+
+@pytest.fixture(scope="module")
+def cases(tmp_path_factory):
+    """{letter: folder}"""
+    base = tmp_path_factory.mktemp("cases")
+    for letter in "ABCD":
+        run_case(
+            f"gastric/case{letter}",
+            *("-set", "resolution=2e-3", "-set", "pylorusRefinement=4"),
+            *("-out", base / letter),
+        )
+    return {letter: base / letter for letter in "ABCD"}
+
+
+@pytest.fixture(scope="module")
+def number(cases):
+    """number(letter, name of a figure)"""
+    every = {letter: figures(folder) for letter, folder in cases.items()}
+    return lambda letter, name: every[letter][name][0]
+
+
+def test_the_harder_bolus_takes_more_work_and_friction_costs_some(number):
+    # Found 1.07, 0.56, 0.32, 0.30 J
+    work = [number(letter, "work") for letter in "DCAB"]
+    assert work == sorted(work, reverse=True)
+    assert work[0] > 1.5 * work[1] > 2 * work[2]
+    assert work[2] > 1.03 * work[3]
+
+
+def test_peak_forces_keep_their_order(number):
+    # Found 252, 201, 77, 74 N: A and B are too near each other to tell
+    force = [number(letter, "peak force") for letter in "DCAB"]
+    assert force[0] > 1.1 * force[1] > 2 * force[2]
+    assert force[1] > 2 * force[3]
+
+
+def test_case_b_empties_most_and_case_a_least(number):
+    # Found 0.77, 0.73, 0.70, 0.66
+    retained = [number(letter, "retained mass") for letter in "ADCB"]
+    assert retained == sorted(retained, reverse=True)
+    assert retained[0] > retained[-1] + 0.05
+
+
+def test_only_a_and_b_break(number):
+    for letter in "AB":
+        assert 7 < number(letter, "first damage") < 12
+    for letter in "CD":
+        assert number(letter, "first damage") == float("inf")
+
+
+@pytest.mark.parametrize("letter", "ABCD")
+def test_mass_and_energy_are_balanced_through_the_throat(cases, letter):
+    steps = read_table(cases[letter], "solver", "steps")
+    assert abs(steps["massError"]).max() < 1e-10
+    # Fast cells leave what slow ones are to get
+    assert steps["alphaMin"].min() > -1e-15
+    assert (steps["slowSubSteps"] < steps["subSteps"]).sum() > 50
+    energy = read_table(cases[letter], "energyBalance")
+    assert abs(energy["residual"][-1]) < 0.01 * energy["work"][-1]
