@@ -266,7 +266,7 @@ Foam::coupledSystem::coupledSystem(
         "maxIterations", "of Newton's method", {1, true, 1e5, true}, 60
     );
     fullSteps_ = read.wholeNumber(
-        "fullSteps", "iterations without line search", {0, true, 1e5, true}, 20
+        "fullSteps", "iterations without line search", {0, true, 1e5, true}, 0
     );
     lagFrictionBelow_ = read.number(
         "lagFrictionBelow",
