@@ -353,6 +353,14 @@ PetscErrorCode Foam::coupledSystem::convergedFunction(
              << r.momentum << "  volume rate " << r.continuity << "  worst at "
              << r.worst << endl;
     }
+    if (system.leap_ && residual < system.bestResidual_)
+    {
+        Vec x;
+        SNESGetSolution(snes, &x);
+        VecCopy(x, system.best_);
+        system.bestShift_ = system.shift_;
+        system.bestResidual_ = residual;
+    }
     *reason = SNES_CONVERGED_ITERATING;
     if (!(r.momentum < GREAT) || !(r.continuity < GREAT))
     {
@@ -399,12 +407,12 @@ SNESConvergedReason Foam::coupledSystem::leap()
     SNESLineSearchType type;
     SNESLineSearchGetType(search, &type);
     const string given(type); // SetType lets go of it
-    petscVec start;
-    VecDuplicate(x_, start.set());
-    VecCopy(x_, start);
-    const scalarField shift(shift_);
+    if (!best_) VecDuplicate(x_, best_.set());
+    VecCopy(x_, best_);
+    bestShift_ = shift_;
+    bestResidual_ = residual_;
+    const scalar enough = 0.5 * residual_;
 
-    mayLeap_ = false;
     leap_ = true;
     SNESLineSearchSetType(search, SNESLINESEARCHBASIC);
     const SNESConvergedReason reason = iterate();
@@ -413,10 +421,11 @@ SNESConvergedReason Foam::coupledSystem::leap()
 
     if (reason < 0)
     {
-        VecCopy(start, x_);
-        shift_ = shift;
+        VecCopy(best_, x_);
+        shift_ = bestShift_;
         gather(x_);
         qLast_ = q_;
+        mayLeap_ = bestResidual_ < enough;
     }
     return reason;
 }
@@ -435,7 +444,7 @@ SNESConvergedReason Foam::coupledSystem::newton()
     mayLeap_ = fullSteps_ > 0;
     eliminateFrom_ = eliminateRoom_;
     SNESConvergedReason reason;
-    for (label attempt = 0; attempt < 4; ++attempt)
+    for (label attempt = 0; attempt < 4;)
     {
         reason = iterate();
         if (reason > 0 || reason == SNES_DIVERGED_FNORM_NAN) break;
@@ -443,6 +452,8 @@ SNESConvergedReason Foam::coupledSystem::newton()
         {
             const SNESConvergedReason leapt = leap();
             if (leapt > 0) return leapt;
+            // As long as it brings something
+            if (mayLeap_) continue;
         }
         if (reason != SNES_DIVERGED_LINE_SEARCH) break;
         if (mayEliminateMore())
@@ -453,6 +464,7 @@ SNESConvergedReason Foam::coupledSystem::newton()
         {
             secant_ = !secant_;
         }
+        ++attempt;
     }
     return reason;
 }
