@@ -171,6 +171,10 @@ def test_the_end_of_a_bar_that_is_pulled_back_leaves_nothing_negative(folder):
     steps = read_table(case, "solver", "steps")
     assert steps["alphaMin"].min() >= -1e-15
     assert abs(steps["massError"]).max() < 1e-13
+    # Nor, in what is left in cells that emptied, a strain that none had
+    plastic = at_the_end(case, "epsilonPEq")
+    assert plastic.min() >= 0
+    assert plastic.max() < 0.1 + 1e-9
 
 
 def test_neither_yes_nor_no_is_one_clear_error(folder):

@@ -153,6 +153,7 @@ Foam::historyTransport::historyTransport(
     full_.setSize(nFaces, false);
     heun_.setSize(nFaces, false);
     qF_.setSize(11 + (inertia_ ? 3 : 0), scalarField(nFaces, Zero));
+    mean_ = qF_;
 
     for (const fvPatch& patch : mesh_.boundary())
     {
@@ -239,16 +240,22 @@ Foam::historyTransport::report Foam::historyTransport::advance(
     setZones(Co, fine > 1 ? coarse : labelMax, slow, fast);
     for (label i = 0; i < coarse; ++i)
     {
-        // Slow cells, with what fast ones take and give at the start
+        // Between slow cells, with what fast ones take and give at the start
         if (fine > 1) upwind(slow.given);
-        subStep(slow, i + 1, coarse, 1);
+        setBolusFlux(slow, i + 1, coarse, 1);
+        setMemoryFlux(slow, deltaT / coarse);
 
-        // Fast ones and their neighbours, with the fluxes between slow ones
-        if (fine == 1) continue;
-        for (label j = 0; j < fine; ++j)
+        // Fast ones and their neighbours
+        for (label j = 0; fine > 1 && j < fine; ++j)
         {
-            subStep(fast, i * fine + j + 1, coarse * fine, fine - j);
+            const label sub = i * fine + j + 1;
+            setBolusFlux(fast, sub, coarse * fine, fine - j);
+            follow(fast, fine);
+            setMemoryFlux(fast, deltaT / (coarse * fine));
+            move(fast, sub, coarse * fine);
         }
+        setMean(fast);
+        move(slow, i + 1, coarse);
     }
 
     result.spilled = spill();

@@ -141,7 +141,7 @@ void Foam::historyTransport::leaveGiven(
 }
 
 
-void Foam::historyTransport::subStep(
+void Foam::historyTransport::setBolusFlux(
     const zone& z,
     const label sub,
     const label n,
@@ -151,17 +151,10 @@ void Foam::historyTransport::subStep(
     const label nInternal = mesh_.nInternalFaces();
     const labelList& own = mesh_.faceOwner();
     const labelList& nei = mesh_.faceNeighbour();
-    const scalarField& V1 = mesh_.V();
-    scalarField& m = state_.mass.primitiveFieldRef();
-    scalarField& alpha = state_.alpha.primitiveFieldRef();
+    const scalarField& alpha = state_.alpha.primitiveField();
     const scalar dt = deltaT_ / n;
 
-    for (const label c : z.cells)
-    {
-        Vold_[c] = V0_[c] + scalar(sub - 1) / n * (V1[c] - V0_[c]);
-        V_[c] = V0_[c] + scalar(sub) / n * (V1[c] - V0_[c]);
-    }
-
+    setVolumes(z, sub, n);
     const scalarField alphaNei(neighbour(alpha));
     const scalarField pNei(neighbour(q_[0]));
     // Bolus beyond the face: through an open boundary void comes in
@@ -271,21 +264,47 @@ void Foam::historyTransport::subStep(
     {
         full_[f] = min(alpha[own[f]], beyond(f)) > memoryAbove_;
     }
+}
 
+
+void Foam::historyTransport::setVolumes(
+    const zone& z,
+    const label sub,
+    const label n
+)
+{
+    const scalarField& V1 = mesh_.V();
     for (const label c : z.cells)
     {
-        massOld_[c] = massNew_[c] = m[c] * Vold_[c];
+        Vold_[c] = V0_[c] + scalar(sub - 1) / n * (V1[c] - V0_[c]);
+        V_[c] = V0_[c] + scalar(sub) / n * (V1[c] - V0_[c]);
     }
+}
+
+
+void Foam::historyTransport::setMasses(const zone& z, const scalar dt)
+{
+    const scalarField& m = state_.mass.primitiveField();
+    for (const label c : z.cells) massOld_[c] = massNew_[c] = m[c] * Vold_[c];
     balance(z, dt, F_, massNew_);
+}
+
+
+void Foam::historyTransport::move(const zone& z, const label sub, const label n)
+{
+    scalarField& m = state_.mass.primitiveFieldRef();
+    scalarField& alpha = state_.alpha.primitiveFieldRef();
+    const scalar dt = deltaT_ / n;
+
+    // Those of z may be others by now
+    setVolumes(z, sub, n);
+    setMasses(z, dt);
+    for (const label d : used_) moveMemory(z, dt, q_[d], qF_[d]);
     for (const label c : z.moved)
     {
         m[c] = massNew_[c] / V_[c];
-        massNew_[c] = m[c] * V_[c];
+        alpha[c] = m[c] * std::exp(-q_[0][c] / K_);
     }
-
-    moveMemory(z, dt);
-
-    for (const label c : z.moved) alpha[c] = m[c] * std::exp(-q_[0][c] / K_);
 }
 
 // ************************************************************************* //

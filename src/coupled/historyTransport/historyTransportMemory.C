@@ -145,24 +145,33 @@ void Foam::historyTransport::faceValues(
 }
 
 
-void Foam::historyTransport::moveMemory(const zone& z, const scalar dt)
+void Foam::historyTransport::moveMemory(
+    const zone& z,
+    const scalar dt,
+    scalarField& q,
+    const scalarField& qF
+)
+{
+    const scalarField& V = mesh_.V();
+    for (const label c : z.cells) carried_[c] = massOld_[c] * q[c];
+    for (const label f : z.faces) amount_[f] = F_[f] * qF[f];
+    for (const label f : z.given) amount_[f] = F_[f] * qF[f];
+    balance(z, dt, amount_, carried_);
+    for (const label c : z.moved)
+    {
+        q[c] = massNew_[c] > 1e-12 * V[c] ? carried_[c] / massNew_[c] : 0;
+    }
+}
+
+
+void Foam::historyTransport::setMemoryFlux(const zone& z, const scalar dt)
 {
     const label nInternal = mesh_.nInternalFaces();
     const labelList& own = mesh_.faceOwner();
     const labelList& nei = mesh_.faceNeighbour();
     const scalarField& V = mesh_.V();
 
-    auto move = [&](scalarField& q, const scalarField& qF)
-    {
-        for (const label c : z.cells) carried_[c] = massOld_[c] * q[c];
-        for (const label f : z.faces) amount_[f] = F_[f] * qF[f];
-        for (const label f : z.given) amount_[f] = F_[f] * qF[f];
-        balance(z, dt, amount_, carried_);
-        for (const label c : z.moved)
-        {
-            q[c] = massNew_[c] > 1e-12 * V[c] ? carried_[c] / massNew_[c] : 0;
-        }
-    };
+    setMasses(z, dt);
 
     // Part of a cell's mass that stays in it
     for (const label c : z.cells) stays_[c] = 0;
@@ -200,14 +209,46 @@ void Foam::historyTransport::moveMemory(const zone& z, const scalar dt)
         scalarField& qF = qF_[d];
         faceValues(z, q, qF);
         const scalarField before(q, z.moved);
-        move(q, qF);
+        moveMemory(z, dt, q, qF);
         faceValues(z, q, second_);
         UIndirectList<scalar>(q, z.moved) = before;
         for (const label f : z.faces)
         {
             if (heun_[f]) qF[f] = 0.5 * (qF[f] + second_[f]);
         }
-        move(q, qF);
+    }
+}
+
+
+void Foam::historyTransport::follow(const zone& z, const label fine)
+{
+    const label nInternal = mesh_.nInternalFaces();
+    for (const label d : used_)
+    {
+        const scalarField& q = q_[d];
+        const scalarField qNei(neighbour(q));
+        for (const label f : z.led)
+        {
+            const bool forward = F_[f] > 0;
+            const scalar qD = forward ? q[mesh_.faceOwner()[f]]
+                : f < nInternal       ? q[mesh_.faceNeighbour()[f]]
+                                      : qNei[f - nInternal];
+            qF_[d][f] = qD;
+            mean_[d][f] += qD / fine;
+        }
+    }
+}
+
+
+void Foam::historyTransport::setMean(const zone& z)
+{
+    for (const label d : used_)
+    {
+        for (const label f : z.led)
+        {
+            qF_[d][f] = mean_[d][f];
+            mean_[d][f] = 0;
+        }
     }
 }
 

@@ -109,7 +109,7 @@ void Foam::historyTransport::setZones(
     forAll(quick, c) quick[c] = Co[c] > maxCourant_ * coarse ? 1 : 0;
     const scalarField quickNei(neighbour(quick));
     boolList touched(nCells, false);
-    DynamicList<label> fastFaces, slowFaces, given;
+    DynamicList<label> fastFaces, slowFaces, given, ledFaces;
     for (const label f : faces_)
     {
         const label P = mesh_.faceOwner()[f];
@@ -128,11 +128,19 @@ void Foam::historyTransport::setZones(
             slowFaces.append(f);
         }
     }
+    scalarField part(nCells, Zero);
+    forAll(part, c) part[c] = touched[c] ? 1 : 0;
+    const scalarField partNei(neighbour(part));
     for (const label f : slowFaces)
     {
         const label P = mesh_.faceOwner()[f];
         const label N = f < nInternal ? mesh_.faceNeighbour()[f] : P;
         if (touched[P] || touched[N]) given.append(f);
+
+        const bool led = flux_[f] > 0 ? touched[P]
+            : f < nInternal ? touched[N]
+                            : coupled_[f] && partNei[f - nInternal] > 0;
+        if (led) ledFaces.append(f);
     }
 
     DynamicList<label> inside, outside;
@@ -148,6 +156,7 @@ void Foam::historyTransport::setZones(
     fast.moved = inside;
     fast.faces = fastFaces;
     fast.given = given;
+    fast.led = ledFaces;
     fast.shared = true;
 }
 
