@@ -229,7 +229,7 @@ void Foam::historyTransport::follow(const zone& z, const label fine)
         const scalarField qNei(neighbour(q));
         for (const label f : z.led)
         {
-            const bool forward = F_[f] > 0;
+            const bool forward = flux_[f] > 0;
             const scalar qD = forward ? q[mesh_.faceOwner()[f]]
                 : f < nInternal       ? q[mesh_.faceNeighbour()[f]]
                                       : qNei[f - nInternal];
