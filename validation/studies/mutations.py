@@ -333,6 +333,14 @@ MUTATIONS = (
         "test_cases.py -k balanced",
     ),
     Mutation(
+        "what leads out of fast cells has the memory of the start",
+        MEMORY,
+        "            qF_[d][f] = qD;\n            mean_[d][f] += qD / fine;",
+        "            mean_[d][f] += qF_[d][f] / fine;",
+        COUPLED,
+        "test_cases.py -k less_plastic",
+    ),
+    Mutation(
         "all cells take the short sub-steps",
         "src/coupled/historyTransport/historyTransportZones.C",
         "if (work < least)",

@@ -57,7 +57,7 @@ Foam::progress::progress(
                 << "lagged [-]" << tab << "courant [-]" << tab << "subSteps [-]"
                 << tab << "slowSubSteps [-]" << tab << "massError [-]" << tab
                 << "alphaMin [-]" << tab << "alphaMax [-]" << tab
-                << "cpuTime [s]" << endl;
+                << "epsilonPEqMin [-]" << tab << "cpuTime [s]" << endl;
     }
 }
 
@@ -100,13 +100,22 @@ void Foam::progress::step(
     alphaMin_ = min(alphaMin_, low);
     alphaMax_ = max(alphaMax_, high);
 
+    // Below 0 only if the transport has gone wrong
+    const scalar leastStrain = gMin(fields_.epsilonPEq.primitiveField());
+    if (leastStrain < -1e-9)
+    {
+        Info << "t " << time_.value() << " s: a plastic strain is "
+             << leastStrain << ": the transport has gone wrong" << endl;
+    }
+
     if (file_.valid())
     {
         file_() << time_.value() << tab << time_.deltaTValue() << tab
                 << solved.iterations << tab << control_.rejected() << tab
                 << lagged_ << tab << moved.courant << tab << moved.subSteps
                 << tab << moved.slowSubSteps << tab << massError_ << tab << low
-                << tab << high << tab << time_.elapsedCpuTime() << endl;
+                << tab << high << tab << leastStrain << tab
+                << time_.elapsedCpuTime() << endl;
     }
 
     // Not time_.run(), which would execute the function objects
