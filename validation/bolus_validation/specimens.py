@@ -269,6 +269,18 @@ def ramp(end: float, move, n: int = 400):
     return [(t, move(t)) for t in np.linspace(0, end, n + 1)]
 
 
+def solve_in_two(case: Path) -> None:
+    """Run bolusFoam in a case on two ranks, parted across x."""
+    write_file(
+        case / "system" / "decomposeParDict",
+        "numberOfSubdomains 2; method simple;\n"
+        "simpleCoeffs { n (2 1 1); delta 0.001; }\n",
+    )
+    run(case, "decomposePar")
+    parallel = ("mpirun", "--oversubscribe", "-np", "2")
+    run(case, *parallel, "bolusFoam", "-parallel")
+
+
 def solve(case: Path) -> None:
     """Run bolusFoam in a case, with a log."""
     (case / "log.bolusFoam").write_text(run(case, "bolusFoam"))

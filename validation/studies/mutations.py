@@ -341,6 +341,14 @@ MUTATIONS = (
         "test_cases.py -k less_plastic",
     ),
     Mutation(
+        "full steps are never tried",
+        "src/coupled/coupledSystem/coupledSystemSolve.C",
+        "mayLeap_ = fullSteps_ > 0;",
+        "mayLeap_ = false;",
+        COUPLED,
+        "test_cases.py -k full_steps",
+    ),
+    Mutation(
         "all cells take the short sub-steps",
         "src/coupled/historyTransport/historyTransportZones.C",
         "if (work < least)",

@@ -71,6 +71,24 @@ def test_mass_and_energy_are_balanced_through_the_throat(cases, letter):
     assert abs(energy["residual"][-1]) < 0.01 * energy["work"][-1]
 
 
+def test_full_steps_pass_corners_that_stop_the_line_search(tmp_path):
+    # Case D until the first wave leaves. Found 37 and 10 rejected steps, work
+    # 0.9 % apart: the second takes longer steps
+    rejected, work = [], []
+    for full in (0, 20):
+        case = tmp_path / str(full)
+        run_case(
+            "gastric/caseD",
+            *("-set", "resolution=2e-3", "-set", "pylorusRefinement=4"),
+            *("-set", "endTime=17", "-set", f"fullSteps={full}"),
+            *("-out", case),
+        )
+        rejected.append(read_table(case, "solver", "steps")["rejected"][-1])
+        work.append(read_table(case, "externalWork")["work"][-1])
+    assert rejected[1] < 0.75 * rejected[0]
+    assert work[1] == pytest.approx(work[0], rel=0.03)
+
+
 def test_no_cell_is_left_with_less_plastic_strain_than_none(tmp_path):
     # Case C on 1 mm until the first wave has gone. What leads out of fast
     # cells during short sub-steps takes their memory of the time: with that of

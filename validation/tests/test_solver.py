@@ -24,8 +24,9 @@ from bolus_validation.specimens import (
     rub,
     run_case,
     solve,
+    solve_in_two,
 )
-from bolus_validation.synthetic import run, write_file
+from bolus_validation.synthetic import run
 
 RATES = [0.01, 0.1, 1.0]
 
@@ -254,14 +255,7 @@ def test_schwarz_gives_the_answer_of_the_direct_solver(
     if ranks == 1:
         run(case, "bolusFoam")
     else:
-        write_file(
-            case / "system" / "decomposeParDict",
-            "numberOfSubdomains 2; method simple;\n"
-            "simpleCoeffs { n (2 1 1); delta 0.001; }\n",
-        )
-        run(case, "decomposePar")
-        parallel = ("mpirun", "--oversubscribe", "-np", "2")
-        run(case, *parallel, "bolusFoam", "-parallel")
+        solve_in_two(case)
     assert pressed.max() > 0.1
     assert wall_force(case) == pytest.approx(pressed, rel=1e-5)
 
