@@ -76,18 +76,21 @@ class HerschelBulkley:
 
 @dataclass
 class PowerHardening:
-    """Flow stress sigma_y + h eps_p^m [Pa], independent of the rate."""
+    """Flow stress sigma_y + h min(eps_p, ends)^m [Pa], whatever the rate."""
 
     sigma_y: float = 100.0
     h: float = 11780.0
     m: float = 2.0
+    ends: float = np.inf
 
     def stress(self, eps_p):
         """Flow stress [Pa] at a plastic strain."""
-        return self.sigma_y + self.h * eps_p**self.m
+        return self.sigma_y + self.h * min(eps_p, self.ends) ** self.m
 
     def slope(self, eps_p):
         """d(flow stress)/d(plastic strain) [Pa]."""
+        if eps_p > self.ends:
+            return 0.0
         return self.h * self.m * eps_p ** (self.m - 1)
 
 

@@ -100,6 +100,14 @@ MUTATIONS = (
         "test_rheology.py -k tabulated",
     ),
     Mutation(
+        "hardening that does not end",
+        "src/rheology/flowStress/powerHardening/powerHardeningFlowStress.C",
+        "hardensUntil_);\n",
+        "GREAT);\n",
+        RHEOLOGY,
+        "test_rheology.py -k JLawThatEnds",
+    ),
+    Mutation(
         "damage whatever the triaxiality",
         "src/rheology/damageModel/triaxialOnsetDamage/triaxialOnsetDamage.H",
         "epsP > epsilonPEq0_ && eta > eta0_",

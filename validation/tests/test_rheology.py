@@ -30,6 +30,11 @@ LAWS = {
     ),
     "HerschelBulkley": (HB, "HerschelBulkley", ""),
     "JLaw": (J_LAW, "JLaw", ""),
+    "JLawThatEnds": (
+        theory.PowerHardening(ends=0.25),
+        "JLaw",
+        "flowStress { hardensUntil 0.25; }",
+    ),
 }
 
 RATES = [0.01, 0.1, 1.0]
@@ -530,6 +535,11 @@ TABLE_ENTRIES = "type tabulated; table ((0 4100) (0.01 7000));"
             TABLE_ENTRIES,
             J_ENTRIES.replace("100", "-100"),
             ["sigmaY is -100", ">= 0"],
+        ),
+        (
+            TABLE_ENTRIES,
+            J_ENTRIES + " hardensUntil 0;",
+            ["hardensUntil is 0", "> 0"],
         ),
         # damage
         ("damage {", "damages {", ["Missing dictionary damage"]),

@@ -408,10 +408,12 @@ SNESConvergedReason Foam::coupledSystem::leap()
     SNESLineSearchGetType(search, &type);
     const string given(type); // SetType lets go of it
     if (!best_) VecDuplicate(x_, best_.set());
+    // Half of what was ever reached: the line search between two leaps may lead
+    // uphill in this measure, and the two would lead each other in a circle
+    const scalar enough = 0.5 * std::min(residual_, bestResidual_);
     VecCopy(x_, best_);
     bestShift_ = shift_;
     bestResidual_ = residual_;
-    const scalar enough = 0.5 * residual_;
 
     leap_ = true;
     SNESLineSearchSetType(search, SNESLINESEARCHBASIC);
@@ -442,6 +444,7 @@ SNESConvergedReason Foam::coupledSystem::newton()
     secant_ = true;
     leap_ = false;
     mayLeap_ = fullSteps_ > 0;
+    bestResidual_ = GREAT;
     eliminateFrom_ = eliminateRoom_;
     SNESConvergedReason reason;
     for (label attempt = 0; attempt < 4;)

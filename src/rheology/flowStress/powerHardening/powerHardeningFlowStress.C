@@ -32,6 +32,12 @@ Foam::flowStresses::powerHardeningFlowStress::powerHardeningFlowStress(
     );
     H_ = read.number("H", "hardening modulus [Pa]", entryReader::nonNegative);
     m_ = read.number("m", "exponent [-]", {0, false, 5, true});
+    hardensUntil_ = read.number(
+        "hardensUntil",
+        "plastic strain at which hardening ends [-]",
+        entryReader::positive,
+        GREAT
+    );
 
     read.rejectOthers();
 }
@@ -44,7 +50,9 @@ Foam::scalar Foam::flowStresses::powerHardeningFlowStress::value(
     const scalar epsP
 ) const
 {
-    return sigmaY_ + H_ * std::pow(std::max(epsP, scalar(0)), m_);
+    const scalar hardening = std::min(std::max(epsP, scalar(0)), hardensUntil_);
+
+    return sigmaY_ + H_ * std::pow(hardening, m_);
 }
 
 
@@ -62,6 +70,11 @@ Foam::scalar Foam::flowStresses::powerHardeningFlowStress::dEpsP(
     const scalar epsP
 ) const
 {
+    if (epsP > hardensUntil_)
+    {
+        return 0;
+    }
+
     return H_ * m_ * std::pow(std::max(epsP, scalar(1e-100)), m_ - 1);
 }
 
