@@ -4,9 +4,10 @@
 
 A_1, A_0.6, ... are single runs (the paper's Fig. 8, and for case A its text row
 by row); cases_1, ... the four cases against each other (Fig. 9);
-convergence_A_0.3, ... a case from mesh to mesh, down to the size named. The
-runs are kept in run/validate/gastric/runs, so that a study that was stopped
-goes on where it was.
+convergence_A_0.3, ... a case from mesh to mesh, down to the size named;
+chance_A_0.3, ... a case against itself, its first step 1 % shorter. The runs
+are kept in run/validate/gastric/runs, so that a study that was stopped goes on
+where it was.
 """
 
 import json
@@ -16,6 +17,7 @@ import matplotlib
 
 matplotlib.use("Agg")
 import matplotlib.pyplot as plt  # noqa: E402
+import numpy as np  # noqa: E402
 from matplotlib.animation import PillowWriter  # noqa: E402
 from matplotlib.colors import Normalize  # noqa: E402
 
@@ -41,8 +43,9 @@ TITLES = {
 }
 
 
-def gastric_run(case: str, size: float) -> Path:
-    """The folder of a run (kept_run) of a case on cells of a size [mm].
+def gastric_run(case: str, size: float, **settings) -> Path:
+    """The folder of a run (kept_run) of a case on cells of a size [mm], with
+    other settings as of -set.
 
     Raises RuntimeError if it gave up a step: its figures are not those of 32 s.
     """
@@ -51,6 +54,7 @@ def gastric_run(case: str, size: float) -> Path:
         "gastric",
         resolution=size * 1e-3,
         pylorusRefinement=max(2.5 * size, 1.0),
+        **settings,
     )
     if (folder / "stopped").exists():
         raise RuntimeError((folder / "stopped").read_text())
@@ -273,8 +277,38 @@ def register_convergence(case: str, sizes: tuple, limits: bool) -> None:
         return found
 
 
+def register_chance(case: str, size: float) -> None:
+    """A case against itself with a first step that is 1 % shorter."""
+
+    @study(
+        f"chance_{case}_{size:g}",
+        "F",
+        f"Case {case} on {size:g} mm, first step 9.9 ms for 10",
+        "the same with 10 ms; what differs is chance",
+    )
+    def run_study(folder: Path, quick: bool) -> Findings:
+        found = Findings()
+        paths = [
+            gastric_run(case, size),
+            gastric_run(case, size, deltaT=0.0099),
+        ]
+        first, second = (figures(path) for path in paths)
+        for name, (number, unit) in second.items():
+            found.row(name, unit, number, first[name][0])
+        for until in (18, 25.5):
+            work = [
+                np.interp(until, table.time, table["work"])
+                for table in (read_table(p, "externalWork") for p in paths)
+            ]
+            found.row(f"work until {until:g} s", "J", work[1], work[0])
+        plots.curves(paths, folder / "curves.png")
+        found.picture = "curves.png"
+        return found
+
+
 for _size in SIZES:
     for _case in CASES:
+        register_chance(_case, _size)
         register_run(_case, _size)
     register_cases(_size)
 for _case in CASES:
