@@ -335,10 +335,18 @@ MUTATIONS = (
     Mutation(
         "fast cells leave nothing for what slow ones were to get",
         FLUX,
-        "if (z.shared) leaveGiven(z, dt, left);",
-        "",
+        "given[D] += mag(F_[f]) * left * dt;",
+        "given[D] += 0;",
         COUPLED,
         "test_cases.py -k balanced",
+    ),
+    Mutation(
+        "cells give more than they have",
+        FLUX,
+        "    takeWhatIsThere(z, dt, left);",
+        "",
+        COUPLED,
+        "test_transport.py -k traces",
     ),
     Mutation(
         "what leads out of fast cells has the memory of the start",

@@ -95,7 +95,7 @@ void Foam::historyTransport::upwind(const labelList& faces)
 }
 
 
-void Foam::historyTransport::leaveGiven(
+void Foam::historyTransport::takeWhatIsThere(
     const zone& z,
     const scalar dt,
     const label left
@@ -175,7 +175,7 @@ void Foam::historyTransport::setBolusFlux(
     {
         low_[f] = flux_[f] * (flux_[f] > 0 ? alpha[own[f]] : beyond(f));
     }
-    if (z.shared) leaveGiven(z, dt, left);
+    takeWhatIsThere(z, dt, left);
     for (const label f : z.faces)
     {
         anti_[f] =

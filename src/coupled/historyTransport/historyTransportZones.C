@@ -150,14 +150,12 @@ void Foam::historyTransport::setZones(
     slow.moved = outside;
     slow.faces = slowFaces;
     slow.given = fastFaces;
-    slow.shared = false;
 
     fast.cells = inside;
     fast.moved = inside;
     fast.faces = fastFaces;
     fast.given = given;
     fast.led = ledFaces;
-    fast.shared = true;
 }
 
 // ************************************************************************* //
