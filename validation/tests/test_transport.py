@@ -181,7 +181,8 @@ def test_the_end_of_a_bar_that_is_pulled_back_leaves_nothing_negative(folder):
 
 def test_traces_blown_through_more_than_a_cell_stay_positive(folder):
     # Sub-steps are as long as cells with bolus can stand: none of the narrow
-    # columns has any. Without care traces go back and forth, and grow
+    # columns has any. Without care traces go back and forth, and grow. Found
+    # -2e-28, the round-off of the traces
     case = push(folder / "trace", "yes", length=0.004, trace=1e-12)
     steps = read_table(case, "solver", "steps")
     assert steps["alphaMin"].min() > -1e-20
