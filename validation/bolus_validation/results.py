@@ -19,6 +19,7 @@ from pathlib import Path
 import numpy as np
 
 from bolus_validation.fields import Case, FoamFileError
+from bolus_validation.profiling import phases
 
 # The ten times [s] of the paper's Fig. 8
 PAPER_TIMES = (7.5, 9.0, 10.5, 12.5, 14.0, 18.0, 23.0, 25.5, 29.0, 32.0)
@@ -220,6 +221,13 @@ def run_numbers(path: Path) -> dict:
                 ),
                 "-",
             )
+
+    seconds = phases(path)
+    if seconds:
+        found["profile"] = {
+            phase: value(taken, "s", of="the first rank, since its last start")
+            for phase, taken in seconds.items()
+        }
 
     mesh = path / "constant" / "polyMesh" / "owner"
     if mesh.is_file() or mesh.with_name("owner.gz").is_file():

@@ -4,8 +4,10 @@
 
 size_0.6, size_0.3, size_0.15: case A until its first wave has broken the bolus,
 on one core and on two, timed by OpenFOAM's own profiling; scaling: how the cost
-grows with the cells. Nothing else may run meanwhile: the studies run one by
-one, and tell how busy the machine was when they began.
+grows with the cells; whole_A_0.15, ...: a case over its 32 s on two cores
+against the time it may take (run where they are named: up to hours each).
+Nothing else may run meanwhile: the studies run one by one, and tell how busy
+the machine was when they began.
 """
 
 import os
@@ -21,10 +23,12 @@ import matplotlib.pyplot as plt  # noqa: E402
 
 from bolus_validation import stock  # noqa: E402
 from bolus_validation.physics import limit  # noqa: E402
-from bolus_validation.results import read_table  # noqa: E402
+from bolus_validation.profiling import PHASES, phases  # noqa: E402
+from bolus_validation.results import read_table, run_numbers  # noqa: E402
 from bolus_validation.specimens import compression  # noqa: E402
 from bolus_validation.studies import (  # noqa: E402
     Findings,
+    holds,
     kept_run,
     study,
 )
@@ -32,32 +36,6 @@ from bolus_validation.studies import (  # noqa: E402
 # Cell sizes [mm], and until when [s]: the wave is in the bolus from 6.9 s on
 SIZES = (0.6, 0.3, 0.15)
 END = 9.0
-
-# What is shown: the names that the solver gives them, and OpenFOAM its own
-PHASES = {
-    "assembly": ("residual", "tangent"),
-    "factorisation": ("factorisation",),
-    "solve": ("linear solve",),
-    "transport": ("transport",),
-    "mesh motion": ("mesh motion",),
-    "output": ("write", "functionObjects.execute()"),
-}
-
-
-def read_profile(path: Path) -> dict[str, float]:
-    """Seconds by name of TIME/uniform/profiling; names that occur more than
-    once are summed.
-
-    Raises ValueError if the file has none.
-    """
-    found: dict[str, float] = {}
-    for block in re.findall(r"trigger\d+\s*\{(.*?)\}", path.read_text(), re.S):
-        entries = dict(re.findall(r'(\w+)\s+("[^"]*"|[^;]+);', block))
-        name = entries["description"].strip('"')
-        found[name] = found.get(name, 0) + float(entries["totalTime"])
-    if not found:
-        raise ValueError(f"{path}: has no trigger; valid is a file of OpenFOAM")
-    return found
 
 
 def timed_run(size: float, ranks: int) -> Path:
@@ -73,20 +51,11 @@ def timed_run(size: float, ranks: int) -> Path:
     )
 
 
-def costs(case: Path, ranks: int) -> dict[str, float]:
+def costs(case: Path) -> dict[str, float]:
     """Seconds by phase (of the first rank) and in all, counts of a run."""
-    base = case / "processor0" if ranks > 1 else case
-    seconds = read_profile(base / f"{END:g}" / "uniform" / "profiling")
-    found = {
-        phase: sum(seconds.get(name, 0) for name in names)
-        for phase, names in PHASES.items()
-    }
     steps = read_table(case, "solver", "steps")
     log = (case / "log.bolusFoam").read_text()
-    total = seconds["application::main"]
-    return found | {
-        "the rest": total - sum(found.values()),
-        "total": total,
+    return phases(case) | {
         "steps": steps.time.size,
         "rejected steps": steps["rejected"][-1],
         "Newton iterations": steps["NewtonIterations"].sum(),
@@ -117,7 +86,7 @@ def register(size: float) -> None:
         figure, axes = plt.subplots(figsize=(8, 2.5), layout="constrained")
         totals = {}
         for ranks in (1, 2):
-            cost = costs(timed_run(size, ranks), ranks)
+            cost = costs(timed_run(size, ranks))
             totals[ranks] = cost["total"]
             left = 0.0
             print(f"  {size:g} mm, {ranks} ranks", flush=True)
@@ -151,6 +120,59 @@ for _size in SIZES:
     register(_size)
 
 
+# Longest times [min] over 32 s on two cores, by cell size [mm]; case D's own
+LONGEST = {0.3: 10, 0.15: 45}
+LONGEST_D = {0.3: 10, 0.15: 60}
+
+
+def register_whole(case: str, size: float) -> None:
+    """The study of a whole run on two cores."""
+
+    @study(
+        f"whole_{case}_{size:g}",
+        "W",
+        f"Case {case} over 32 s on cells of {size:g} mm, two cores",
+        "the time it may take; no step given up",
+        long=True,
+    )
+    def run_study(folder: Path, quick: bool) -> Findings:
+        found = Findings()
+        found.remarks.append(load())
+        path = kept_run(
+            f"gastric/case{case}",
+            "speed",
+            ranks=2,
+            resolution=size * 1e-3,
+            pylorusRefinement=max(2.5 * size, 1.0),
+            **{"system/controlDict:profiling.active": "true"},
+        )
+        cost = costs(path)
+        for name, number in cost.items():
+            timed = name in PHASES or name in ("the rest", "total")
+            found.row(name, "s" if timed else "-", number)
+        longest = (LONGEST_D if case == "D" else LONGEST)[size]
+        run = run_numbers(path)
+        # A run that gave up has no clock time
+        minutes = run.get("clockTime", run["cpuTime"])["value"] / 60
+        found.row("clock time", "min", minutes)
+        holds(found, f"within {longest} min", minutes <= longest)
+        stopped = path / "stopped"
+        holds(
+            found,
+            "to 32 s without a step given up",
+            not stopped.exists(),
+            stopped.read_text() if stopped.exists() else "",
+        )
+        for row in found.rows:
+            print(f"    {row.quantity:34} {row.value:10.5g} {row.unit}")
+        return found
+
+
+for _case in "ABCD":
+    for _size in LONGEST:
+        register_whole(_case, _size)
+
+
 @study(
     "scaling",
     "S",
@@ -159,7 +181,7 @@ for _size in SIZES:
 )
 def scaling(folder: Path, quick: bool) -> Findings:
     found = Findings()
-    every = [costs(timed_run(size, 1), 1) for size in SIZES]
+    every = [costs(timed_run(size, 1)) for size in SIZES]
     cells = np.array([cost["cells"] for cost in every])
     figure, axes = plt.subplots(figsize=(6, 4), layout="constrained")
     for name in (*PHASES, "total"):

@@ -121,6 +121,11 @@ class Findings:
         return all(x.met is not False for x in (*self.rows, *self.orders))
 
 
+def holds(found: Findings, what: str, true: bool, remark: str = "") -> None:
+    """A row for a statement: 1 where it holds, which is what it should."""
+    found.row(what, "-", float(true), 1.0, 0.0, remark=remark)
+
+
 def energy_residual(found: Findings, table, what: str, limit: float) -> None:
     """A row for the largest residual of a run, of its largest work; table:
     that of energyBalance."""
@@ -141,6 +146,7 @@ class Study:
     """A registered study: function(folder, quick) -> Findings.
 
     quick    a coarse and fast version, for ./Allrun test
+    long     runs only where it is named
     """
 
     name: str
@@ -149,17 +155,21 @@ class Study:
     reference: str
     function: Callable
     module: str
+    long: bool = False
 
 
 REGISTRY: dict[str, Study] = {}
 
 
-def study(name: str, group: str, title: str, reference: str):
-    """Register a study; name is also that of its folder."""
+def study(
+    name: str, group: str, title: str, reference: str, long: bool = False
+):
+    """Register a study; name is also that of its folder. A long one runs only
+    where it is named."""
 
     def register(function):
         REGISTRY[name] = Study(
-            name, group, title, reference, function, function.__module__
+            name, group, title, reference, function, function.__module__, long
         )
         return function
 
@@ -319,7 +329,7 @@ def run_all(
             + ", ".join(REGISTRY)
         )
         return 2
-    chosen = list(names) or list(REGISTRY)
+    chosen = list(names) or [n for n in REGISTRY if not REGISTRY[n].long]
     base = ROOT / "run" / "validate" / page
     results, missing = {}, []
     for name in REGISTRY:
@@ -363,7 +373,7 @@ def command(
 ) -> None:
     """The command of a page: its arguments, run_all(), the exit code."""
     parser = argparse.ArgumentParser(description=description)
-    parser.add_argument("names", nargs="*", help="studies; default: all")
+    parser.add_argument("names", nargs="*", help="default: all but long ones")
     parser.add_argument("-force", action="store_true", help="run again")
     given = parser.parse_args()
     sys.exit(run_all(page, title, given.names, given.force, workers))

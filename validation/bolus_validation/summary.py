@@ -132,6 +132,11 @@ def summary(path) -> str:
             text += f" at {number['time']:.4g} s"
         lines.append(text)
 
+    profile = results.get("run", {}).get("profile", {})
+    for n, (phase, taken) in enumerate(profile.items()):
+        title = "" if n else "where the time went"
+        lines.append(f"{title:<28}{phase:<14}{taken['value']:8.1f} s")
+
     comparison = path / "comparison.md"
     if comparison.is_file():
         count = re.search(r"^\d+ rows agree.*$", comparison.read_text(), re.M)

@@ -6,9 +6,11 @@ So coarse that no figure means much; the order is that of the finer meshes.
 """
 
 import pytest
+from bolus_validation import gastric_study
 from bolus_validation.gastric_study import figures
 from bolus_validation.results import read_table
 from bolus_validation.specimens import run_case
+from bolus_validation.studies import REGISTRY
 
 
 @pytest.fixture(scope="module")
@@ -58,6 +60,24 @@ def test_only_a_and_b_break(number):
         assert 7 < number(letter, "first damage") < 12
     for letter in "CD":
         assert number(letter, "first damage") == float("inf")
+
+
+def test_the_page_compares_the_cases_that_ended(cases, monkeypatch, tmp_path):
+    # Hours of A, B, C are not lost where D gives up
+    def gastric_run(case, size):
+        if case == "D":
+            raise RuntimeError("no convergence at t = 15.3 s")
+        return cases[case]
+
+    monkeypatch.setattr(gastric_study, "gastric_run", gastric_run)
+    found = REGISTRY["cases_1"].function(tmp_path, quick=False)
+    rows = {row.quantity: row for row in found.rows}
+    assert rows["D: to 32 s"].met is False
+    assert "15.3" in rows["D: to 32 s"].remark
+    assert rows["C: more work than A"].met
+    assert rows["B: lowest work"].met and rows["B: most emptied"].met
+    assert not [name for name in rows if name.startswith("D: work")]
+    assert "work, D" not in rows
 
 
 @pytest.mark.parametrize("letter", "ABCD")

@@ -2,23 +2,34 @@
 # Copyright (C) 2026 the bolusFoam developers
 """./Allrun validate speed: what it reads, and the stock solver beside ours."""
 
+import re
+
 import numpy as np
 import pytest
 from bolus_validation import stock
+from bolus_validation.profiling import PHASES, phases, read_profile
+from bolus_validation.results import write_json
 from bolus_validation.specimens import prepare_compression
-from bolus_validation.speed_study import PHASES, read_profile, stock_wire
+from bolus_validation.speed_study import stock_wire
+from bolus_validation.summary import summary
 from bolus_validation.synthetic import run
 
 
 @pytest.fixture(scope="module")
-def profile(tmp_path_factory):
-    """Seconds by name of a short run with OpenFOAM's profiling."""
+def profiled(tmp_path_factory):
+    """A short run with OpenFOAM's profiling."""
     case = tmp_path_factory.mktemp("speed") / "case"
     prepare_compression(case, strain=0.05, unloadStrain=0, writeStrain=0.05)
     with open(case / "system" / "controlDict", "a") as control:
         control.write("profiling { active true; }\n")
     run(case, "bolusFoam")
-    (last,) = case.glob("0.5/uniform/profiling")
+    return case
+
+
+@pytest.fixture(scope="module")
+def profile(profiled):
+    """Seconds by name of that run."""
+    (last,) = profiled.glob("0.5/uniform/profiling")
     return read_profile(last)
 
 
@@ -44,6 +55,28 @@ def test_the_phases_are_within_the_whole(profile):
         for name in PHASES[phase]
     )
     assert 0.7 * profile["equilibrium"] < inner < profile["equilibrium"]
+
+
+def test_phases_and_the_rest_are_the_whole(profiled):
+    found = phases(profiled)
+    total = found.pop("total")
+    assert sum(found.values()) == pytest.approx(total)
+    assert list(found) == [*PHASES, "the rest"]
+    assert min(found.values()) > 0
+
+
+def test_the_summary_tells_where_the_time_went(profiled):
+    write_json(profiled)
+    text = summary(profiled)
+    assert text.count("where the time went") == 1
+    assert re.search(r"^ +factorisation +[\d.]+ s$", text, re.M)
+    seconds = phases(profiled)["total"]
+    assert f"total         {seconds:8.1f} s" in text
+
+
+def test_a_run_without_profile_has_no_phases(tmp_path):
+    (tmp_path / "0.5" / "uniform").mkdir(parents=True)
+    assert phases(tmp_path) == {}
 
 
 def test_a_file_that_is_no_profile_is_refused(tmp_path):

@@ -2,6 +2,8 @@
 # Copyright (C) 2026 the bolusFoam developers
 """What a kept run depends on."""
 
+from concurrent.futures import Future
+
 import pytest
 from bolus_validation import studies
 
@@ -29,3 +31,43 @@ def test_a_run_is_kept_until_what_it_depends_on_changes(
     path.write_text("after")
     assert (studies.solver_hash(["cutting"]) != before["cutting"]) == cutting
     assert (studies.solver_hash(["gastric"]) != before["gastric"]) == gastric
+
+
+def test_a_long_study_runs_only_where_it_is_named(tmp_path, monkeypatch):
+    ran = []
+
+    def run_one(name, folder, key):
+        ran.append(name)
+        return {"name": name, "met": True, "error": None, "seconds": 0}
+
+    class Here:
+        """A pool of this process."""
+
+        def __init__(self, max_workers):
+            pass
+
+        def __enter__(self):
+            return self
+
+        def __exit__(self, *_):
+            pass
+
+        def submit(self, function, *job):
+            future = Future()
+            future.set_result(function(*job))
+            return future
+
+    def nothing(folder, quick):
+        pass
+
+    monkeypatch.setattr(studies, "ROOT", tmp_path)
+    monkeypatch.setattr(studies, "REGISTRY", {})
+    monkeypatch.setattr(studies, "ProcessPoolExecutor", Here)
+    monkeypatch.setattr(studies, "_run_one", run_one)
+    monkeypatch.setattr(studies, "_write_page", lambda *_: None)
+    studies.study("short", "S", "", "")(nothing)
+    studies.study("hours", "S", "", "", long=True)(nothing)
+    assert studies.run_all("page", "") == 0
+    assert ran == ["short"]
+    assert studies.run_all("page", "", ["hours"]) == 0
+    assert ran == ["short", "hours"]

@@ -15,12 +15,13 @@ void Foam::coupledSystem::setPetsc(const dictionary& dict)
     const word solver(dict.lookupOrDefault<word>("linearSolver", "direct"));
     if (solver == "direct")
     {
-        // Quasi-dense approximate minimum degree: the fastest of MUMPS's
-        // orderings for some ten thousand unknowns
+        // Approximate minimum fill: the fastest of MUMPS's orderings for some
+        // ten thousand unknowns; on two ranks by a fifth, against quasi-dense
+        // approximate minimum degree
         options += "-bolus_velocity_ksp_type preonly -bolus_velocity_pc_type lu"
                    " -bolus_velocity_pc_factor_mat_solver_type mumps"
                    " -bolus_velocity_mat_mumps_icntl_14 80"
-                   " -bolus_velocity_mat_mumps_icntl_7 6"
+                   " -bolus_velocity_mat_mumps_icntl_7 2"
                    // The rows are scaled: MUMPS need not look for scales
                    " -bolus_velocity_mat_mumps_icntl_8 0 ";
     }

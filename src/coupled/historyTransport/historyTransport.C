@@ -26,11 +26,17 @@ void Foam::historyTransport::pack()
         }
     }
 
-    // What is nowhere stays so; the pressure moves always
+    // What is nowhere stays so; the pressure moves always. Shear out of the
+    // plane of a slice is round-off of the law
+    scalarField largest(q_.size());
+    forAll(q_, d) largest[d] = gMax(mag(q_[d]));
+    const scalar noStress = 1e-10 * max(SubList<scalar>(largest, 6, 3));
     DynamicList<label> used;
     forAll(q_, d)
     {
-        if (d == 0 || gMax(mag(q_[d])) > 0) used.append(d);
+        const bool stress = d >= 3 && d < 9;
+        if (d == 0 || largest[d] > (stress ? noStress : 0)) used.append(d);
+        if (stress && largest[d] <= noStress) q_[d] = 0;
     }
     used_ = used;
 }
@@ -160,6 +166,15 @@ Foam::historyTransport::historyTransport(
         if (!patch.coupled()) continue;
         forAll(patch, i) coupled_[patch.start() + i] = true;
     }
+    DynamicList<label> faces, cells;
+    for (label f = mesh_.nInternalFaces(); f < nFaces; ++f)
+    {
+        if (!coupled_[f]) continue;
+        faces.append(f - mesh_.nInternalFaces());
+        cells.append(mesh_.faceOwner()[f]);
+    }
+    coupledFaces_ = faces;
+    coupledCells_ = cells;
     parts_ = returnReduce(coupled_.found(true), orOp<bool>());
 }
 
@@ -241,7 +256,7 @@ Foam::historyTransport::report Foam::historyTransport::advance(
     for (label i = 0; i < coarse; ++i)
     {
         // Between slow cells, with what fast ones take and give at the start
-        if (fine > 1) upwind(slow.given);
+        if (fine > 1) upwind(fast);
         setBolusFlux(slow, i + 1, coarse, 1);
         setMemoryFlux(slow, deltaT / coarse);
 

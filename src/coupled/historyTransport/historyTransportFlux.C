@@ -61,7 +61,7 @@ void Foam::historyTransport::setSwept(
         swept_[f] = sharp * swept_[f] + (1 - sharp) * within;
     }
 
-    if (!parts_) return;
+    if (!z.shared) return;
     SubList<scalar> here(swept_, mesh_.nFaces() - nInternal, nInternal);
     scalarField there(here);
     syncTools::swapBoundaryFaceList(mesh_, there);
@@ -73,13 +73,13 @@ void Foam::historyTransport::setSwept(
 }
 
 
-void Foam::historyTransport::upwind(const labelList& faces)
+void Foam::historyTransport::upwind(const zone& z)
 {
     const label nInternal = mesh_.nInternalFaces();
     const scalarField& alpha = state_.alpha.primitiveField();
-    const scalarField alphaNei(neighbour(alpha));
-    const scalarField pNei(neighbour(q_[0]));
-    for (const label f : faces)
+    const scalarField alphaNei(neighbour(z, alpha));
+    const scalarField pNei(neighbour(z, q_[0]));
+    for (const label f : z.faces)
     {
         const label D = flux_[f] > 0 ? mesh_.faceOwner()[f]
             : f < nInternal          ? mesh_.faceNeighbour()[f]
@@ -128,7 +128,7 @@ void Foam::historyTransport::takeWhatIsThere(
                 scalar(0));
         part[c] = now[c] > rest ? rest / now[c] : scalar(1);
     }
-    const scalarField partNei(neighbour(part));
+    const scalarField partNei(neighbour(z, part));
     for (const label f : z.faces)
     {
         if (low_[f] > 0)
@@ -155,8 +155,8 @@ void Foam::historyTransport::setBolusFlux(
     const scalar dt = deltaT_ / n;
 
     setVolumes(z, sub, n);
-    const scalarField alphaNei(neighbour(alpha));
-    const scalarField pNei(neighbour(q_[0]));
+    const scalarField alphaNei(neighbour(z, alpha));
+    const scalarField pNei(neighbour(z, q_[0]));
     // Bolus beyond the face: through an open boundary void comes in
     auto beyond = [&](const label f)
     {
@@ -226,8 +226,8 @@ void Foam::historyTransport::setBolusFlux(
             ? min(max(alphaLeft_[c], scalar(0)) / Pm_[c], scalar(1))
             : 1;
     }
-    const scalarField RpNei(neighbour(Rp_));
-    const scalarField RmNei(neighbour(Rm_));
+    const scalarField RpNei(neighbour(z, Rp_));
+    const scalarField RmNei(neighbour(z, Rm_));
 
     // Flux of mass: the donor's compression goes with it
     for (const label f : z.faces)

@@ -75,10 +75,10 @@ void Foam::historyTransport::faceValues(
     const label nInternal = mesh_.nInternalFaces();
     const labelList& own = mesh_.faceOwner();
     const labelList& nei = mesh_.faceNeighbour();
-    const scalarField qNei(neighbour(q));
+    const scalarField qNei(neighbour(z, q));
 
     gradient(z, q, qNei, g_);
-    const vectorField gNei(neighbour(g_));
+    const vectorField gNei(neighbour(z, g_));
 
     // The slope may not count on values that no neighbour has
     for (const label c : z.cells) least_[c] = most_[c] = q[c];
@@ -99,9 +99,9 @@ void Foam::historyTransport::faceValues(
     };
     for (const label f : z.faces) see(f);
     for (const label f : z.given) see(f);
-    const scalarField leastNei(neighbour(least_));
-    const scalarField mostNei(neighbour(most_));
-    const scalarField staysNei(neighbour(stays_));
+    const scalarField leastNei(neighbour(z, least_));
+    const scalarField mostNei(neighbour(z, most_));
+    const scalarField staysNei(neighbour(z, stays_));
 
     // What an open boundary lets in has no memory
     auto at = [&](const scalarField& cells, const scalarField& beyond, label f)
@@ -195,7 +195,7 @@ void Foam::historyTransport::setMemoryFlux(const zone& z, const scalar dt)
     // where a cell is not moved now
     for (const label c : z.cells) calm_[c] = 0;
     for (const label c : z.moved) calm_[c] = stays_[c];
-    const scalarField calmNei(neighbour(calm_));
+    const scalarField calmNei(neighbour(z, calm_));
     for (const label f : z.faces)
     {
         heun_[f] = full_[f]
@@ -226,7 +226,7 @@ void Foam::historyTransport::follow(const zone& z, const label fine)
     for (const label d : used_)
     {
         const scalarField& q = q_[d];
-        const scalarField qNei(neighbour(q));
+        const scalarField qNei(neighbour(z, q));
         for (const label f : z.led)
         {
             const bool forward = flux_[f] > 0;

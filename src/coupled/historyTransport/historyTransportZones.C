@@ -3,6 +3,8 @@
 
 #include "historyTransport.H"
 
+#include <algorithm>
+
 // Sub-steps, and which cells take the short ones: see historyTransport.H
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
@@ -150,12 +152,20 @@ void Foam::historyTransport::setZones(
     slow.moved = outside;
     slow.faces = slowFaces;
     slow.given = fastFaces;
+    slow.shared = parts_;
 
     fast.cells = inside;
     fast.moved = inside;
     fast.faces = fastFaces;
     fast.given = given;
     fast.led = ledFaces;
+    const auto shared = [&](const label f) { return coupled_[f]; };
+    fast.shared = parts_
+        && returnReduce(
+            std::any_of(fastFaces.begin(), fastFaces.end(), shared)
+                || std::any_of(given.begin(), given.end(), shared),
+            orOp<bool>()
+        );
 }
 
 // ************************************************************************* //
