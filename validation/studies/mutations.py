@@ -373,6 +373,22 @@ MUTATIONS = (
         "test_transport.py -k fast_cells",
     ),
     Mutation(
+        "the logarithmic rate is Jaumann's",
+        POINT,
+        "if (!elastic_.logarithmic())",
+        "if (true)",
+        ("applications/utilities/materialPoint",),
+        "test_rheology.py -k hencky",
+    ),
+    Mutation(
+        "processors never ask each other about fast cells",
+        "src/coupled/historyTransport/historyTransportZones.C",
+        "fast.shared = parts_",
+        "fast.shared = false && parts_",
+        COUPLED,
+        "test_transport.py -k two_ranks",
+    ),
+    Mutation(
         "memory is carried by the receiving cell's value",
         MEMORY,
         "const scalar qD = forward ? q[P] : qN;",

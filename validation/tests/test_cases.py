@@ -12,6 +12,8 @@ from bolus_validation.results import read_table
 from bolus_validation.specimens import run_case
 from bolus_validation.studies import REGISTRY
 
+JAUMANN = "constant/bolusProperties:elasticity.objectiveRate=Jaumann"
+
 
 @pytest.fixture(scope="module")
 def cases(tmp_path_factory):
@@ -92,8 +94,8 @@ def test_mass_and_energy_are_balanced_through_the_throat(cases, letter):
 
 
 def test_full_steps_pass_corners_that_stop_the_line_search(tmp_path):
-    # Case D until the first wave leaves. Found 37 and 10 rejected steps, work
-    # 0.9 % apart: the second takes longer steps
+    # Case D with Jaumann's rate until the first wave leaves. Found 37 and 10
+    # rejected steps, work 0.9 % apart: the second takes longer steps
     rejected, work = [], []
     for full in (0, 20):
         case = tmp_path / str(full)
@@ -101,12 +103,28 @@ def test_full_steps_pass_corners_that_stop_the_line_search(tmp_path):
             "gastric/caseD",
             *("-set", "resolution=2e-3", "-set", "pylorusRefinement=4"),
             *("-set", "endTime=17", "-set", f"fullSteps={full}"),
+            *("-set", JAUMANN),
             *("-out", case),
         )
         rejected.append(read_table(case, "solver", "steps")["rejected"][-1])
         work.append(read_table(case, "externalWork")["work"][-1])
     assert rejected[1] < 0.75 * rejected[0]
     assert work[1] == pytest.approx(work[0], rel=0.03)
+
+
+def test_beyond_twice_the_shear_modulus_jaumanns_rate_has_no_step(tmp_path):
+    # Case D, 2 mm, until the first wave leaves. Found 10 and 1 rejected steps
+    rejected = []
+    for rate in ([], ["-set", JAUMANN]):
+        case = tmp_path / str(len(rate))
+        run_case(
+            "gastric/caseD",
+            *("-set", "resolution=2e-3", "-set", "pylorusRefinement=4"),
+            *("-set", "endTime=17", *rate),
+            *("-out", case),
+        )
+        rejected.append(read_table(case, "solver", "steps")["rejected"][-1])
+    assert rejected[0] < 0.5 * rejected[1]
 
 
 def test_no_cell_is_left_with_less_plastic_strain_than_none(tmp_path):

@@ -28,6 +28,8 @@ WAY = 0.004  # of the piston in 1 s [m]
 CELLS = (42, 10)
 # Part of the length, part of the cells, cell size to size
 GRADING = "((0.3 18 1) (0.01 6 1) (0.69 18 1))"
+# The same, narrow columns in the half of one processor
+WITHIN = "((0.15 9 1) (0.01 6 1) (0.84 27 1))"
 
 
 def strain(x):
@@ -49,6 +51,7 @@ def push(
     way=WAY,
     wall=SLIDING,
     trace=0.0,
+    grading=GRADING,
 ):
     """A bar of a length [m] goes with the piston for 1 s, in 10 steps.
 
@@ -70,7 +73,7 @@ def push(
     )
     dictionary = case / "system" / "blockMeshDict"
     replace(
-        dictionary, r"simpleGrading \(1 1 1\)", f"simpleGrading ({GRADING} 1 1)"
+        dictionary, r"simpleGrading \(1 1 1\)", f"simpleGrading ({grading} 1 1)"
     )
     with open(case / "system" / "fvSolution", "a") as file:
         file.write(f"transport {{ localSubSteps {local}; }}\n")
@@ -160,11 +163,20 @@ def test_its_bar_is_as_sharp_as_by_short_sub_steps_for_all(local, uniform):
     assert error(local) < 1.05 * error(uniform)
 
 
-def test_two_ranks_give_the_serial_answer(local, folder):
-    case = push(folder / "ranks", "yes", ranks=2)
+@pytest.mark.parametrize(
+    ("fast", "grading"), [("both", GRADING), ("one", WITHIN)]
+)
+def test_two_ranks_give_the_serial_answer(folder, fast, grading):
+    # The fast cells are of both processors, or of one
+    serial, ranks = (
+        push(folder / f"{fast}{n}", "yes", ranks=n, grading=grading)
+        for n in (1, 2)
+    )
+    steps = read_table(ranks, "solver", "steps")
+    assert (steps["slowSubSteps"] < steps["subSteps"]).sum() >= 5
     for name in ("mass", "epsilonPEq"):
-        assert at_the_end(case, name) == pytest.approx(
-            at_the_end(local, name), abs=1e-7
+        assert at_the_end(ranks, name) == pytest.approx(
+            at_the_end(serial, name), abs=1e-7
         )
 
 

@@ -12,11 +12,11 @@
 //     V Sigma : grad U = V [a s : D_b - a p e + a (1 - a) e N:s - p_v g + P o
 //                        + 2 eta dev D : D]
 //
-// and of backward Euler, with Q the rotation of the step and D_p the plastic
-// part of D_b,
+// and of backward Euler, with Q the rotation of the step, H that of the
+// objective rate (elastoViscoPlastic) and D_p the plastic part of D_b,
 //
 //     s : D_b dt = q d(eps_p) + (|s|^2 - |s_old|^2)/(4 G)
-//                + |s - Q s_old Q^T|^2/(4 G)
+//                + |s - Q s_old Q^T|^2/(4 G) - s : (H - 1) : D_b dt
 //     -p e dt    = (p^2 - p_old^2)/(2 K) + (p - p_old)^2/(2 K)
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
@@ -71,8 +71,14 @@ void Foam::coupledSystem::bookPower(
         const symmTensor& s = r.r.s;
         const scalar now = magSqr(s) / (4 * G) + sqr(p) / (2 * K);
         const scalar old = magSqr(sOld) / (4 * G) + sqr(pOld_[c]) / (2 * K);
-        const scalar lost =
+        scalar lost =
             magSqr(s - r.r.sRot) / (4 * G) + sqr(p - pOld_[c]) / (2 * K);
+        if (law_.elastic().logarithmic())
+        {
+            const symmTensor strain =
+                deltaT_ * dev(symm(r.gradU - r.growth * tensor(N_[c])));
+            lost -= s && ((r.r.sTrial - r.r.sRot) / (2 * G) - strain);
+        }
         const scalar rate = a * V / deltaT_;
 
         elasticEnergy_[c] = now * std::exp(-p / K);

@@ -14,6 +14,13 @@ Foam::elasticity::elasticity(const dictionary& dict)
     E_ = read.number("E", "Young's modulus [Pa]", {0, false, 1e12, true});
     nu_ = read.number("nu", "Poisson's ratio [-]", {0, true, 0.5, false});
 
+    const wordList rates({"Jaumann", "logarithmic"});
+    logarithmic_ =
+        read.choice(
+            "objectiveRate", "rate of the stress that turns", rates, "Jaumann"
+        )
+        == "logarithmic";
+
     read.rejectOthers();
 }
 
