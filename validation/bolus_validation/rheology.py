@@ -15,7 +15,9 @@ Simple shear dU_x/dy = gamma', Jaumann rate, deviatoric stress s:
 
     ds/dt = W s - s W + 2 G (D - 3 r/(2 q) s),   q = sqrt(3/2 s:s)
 
-with r the plastic rate [1/s] at which the flow stress is q, or, for a law
+with D + [s, [s, D]]/(12 G^2) for D where the law goes with the logarithmic rate
+(of its series the two terms that the solver takes: see elastoViscoPlastic.H),
+and r the plastic rate [1/s] at which the flow stress is q, or, for a law
 without rate dependence, that of the consistency condition.
 """
 
@@ -76,12 +78,16 @@ class HerschelBulkley:
 
 @dataclass
 class PowerHardening:
-    """Flow stress sigma_y + h min(eps_p, ends)^m [Pa], whatever the rate."""
+    """Flow stress sigma_y + h min(eps_p, ends)^m [Pa], whatever the rate.
+
+    logarithmic_rate    of stress, as in the tutorials; else Jaumann's
+    """
 
     sigma_y: float = 100.0
     h: float = 11780.0
     m: float = 2.0
     ends: float = np.inf
+    logarithmic_rate: bool = True
 
     def stress(self, eps_p):
         """Flow stress [Pa] at a plastic strain."""
@@ -250,7 +256,10 @@ def simple_shear(law, gamma_rate, times, stress=None, eps_p=0.0, step=2e-4):
     def slope(s, eps_p, plastic):
         r = plastic_rate(s, eps_p, plastic)
         flow = 1.5 * r / equivalent(s) * s if r > 0 else 0.0
-        return w @ s - s @ w + 2 * G * (d - flow), r
+        turned = 0.0
+        if hardening and law.logarithmic_rate:
+            turned = (s @ s @ d - 2 * s @ d @ s + d @ s @ s) / (12 * G**2)
+        return w @ s - s @ w + 2 * G * (d + turned - flow), r
 
     def runge_kutta(s, eps_p, h, plastic):
         a1, r1 = slope(s, eps_p, plastic)

@@ -113,7 +113,7 @@ def test_full_steps_pass_corners_that_stop_the_line_search(tmp_path):
 
 
 def test_beyond_twice_the_shear_modulus_jaumanns_rate_has_no_step(tmp_path):
-    # Case D, 2 mm, until the first wave leaves. Found 10 and 1 rejected steps
+    # Case D, 2 mm, until the first wave leaves
     rejected = []
     for rate in ([], ["-set", JAUMANN]):
         case = tmp_path / str(len(rate))

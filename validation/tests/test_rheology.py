@@ -516,7 +516,11 @@ TABLE_ENTRIES = "type tabulated; table ((0 4100) (0.01 7000));"
         ("E 100e3;", "E {}", ["E is a dictionary", "number"]),
         ("nu 0.49;", "nu 0.5;", ["nu is 0.5", ">= 0 and < 0.5"]),
         ("nu 0.49;", "nu -0.1;", ["nu is -0.1", ">= 0 and < 0.5"]),
-        ("nu 0.49;", "nu 0.49; mu 1;", ["Unknown entry mu", "(E nu)"]),
+        (
+            "nu 0.49;",
+            "nu 0.49; mu 1;",
+            ["Unknown entry mu", "(E nu objectiveRate)"],
+        ),
         ("rho 1100;", "", ["Missing entry rho", "kg/m3", "> 0"]),
         ("rho 1100;", "rho 0;", ["rho is 0", "> 0"]),
         ("elasticity {", "elastic {", ["elasticity", "elastic"]),
