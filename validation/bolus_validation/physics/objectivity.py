@@ -37,7 +37,7 @@ LAWS = {
     ),
     "power-hardening": (
         "type powerHardening; sigmaY 100; H 11780; m 2;",
-        rheology.PowerHardening(),
+        rheology.PowerHardening(logarithmic_rate=False),
     ),
 }
 
