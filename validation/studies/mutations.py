@@ -377,8 +377,8 @@ MUTATIONS = (
         POINT,
         "if (!elastic_.logarithmic())",
         "if (true)",
-        ("applications/utilities/materialPoint",),
-        "test_rheology.py -k hencky",
+        COUPLED,
+        "test_cases.py -k jaumanns",
     ),
     Mutation(
         "processors never ask each other about fast cells",
