@@ -146,15 +146,17 @@ def register_whole(case: str, size: float) -> None:
             pylorusRefinement=max(2.5 * size, 1.0),
             **{"system/controlDict:profiling.active": "true"},
         )
-        cost = costs(path)
-        for name, number in cost.items():
-            timed = name in PHASES or name in ("the rest", "total")
-            found.row(name, "s" if timed else "-", number)
-        longest = (LONGEST_D if case == "D" else LONGEST)[size]
+        for phase, seconds in phases(path).items():
+            found.row(f"{phase}, since the last start", "s", seconds)
         run = run_numbers(path)
-        # A run that gave up has no clock time
-        minutes = run.get("clockTime", run["cpuTime"])["value"] / 60
-        found.row("clock time", "min", minutes)
+        for name in ("cells", "steps", "rejectedSteps", "newtonIterations"):
+            found.row(name, "-", run[name]["value"])
+        # A start that was killed or gave up has left no clock time, but that
+        # of its first rank
+        clock = run.get("clockTime", {"value": 0})["value"]
+        minutes = max(clock, run["cpuTime"]["value"]) / 60
+        found.row("time", "min", minutes)
+        longest = (LONGEST_D if case == "D" else LONGEST)[size]
         holds(found, f"within {longest} min", minutes <= longest)
         stopped = path / "stopped"
         holds(

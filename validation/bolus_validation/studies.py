@@ -215,6 +215,10 @@ def solver_hash(families=FAMILIES) -> str:
     )
 
 
+class GaveUp(RuntimeError):
+    """A run that gave up a step: its figures are not those of its end."""
+
+
 def kept_run(tutorial: str, page: str, ranks: int = 1, **settings) -> Path:
     """Run a tutorial with these -set entries, or take the run that is there.
 

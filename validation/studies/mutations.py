@@ -378,7 +378,7 @@ MUTATIONS = (
         "if (!elastic_.logarithmic())",
         "if (true)",
         COUPLED,
-        "test_cases.py -k jaumanns",
+        "test_cases.py -k logarithmic",
     ),
     Mutation(
         "processors never ask each other about fast cells",

@@ -222,7 +222,8 @@ def test_elastic_shear_follows_the_jaumann_rate_exactly(tmp_path):
 def test_elastic_shear_by_the_logarithmic_rate_is_that_of_hencky(tmp_path):
     # With sinh h = gamma/2: tau = 2 G h/cosh h, s_xx = 2 G h tanh h; the
     # principal stresses differ by 4 G h. Two terms of the series: at gamma 1.5
-    # (x = 2.8) the modulus is 5 % too high, found 1.9 % of tau
+    # (x = 2.8) the modulus is 4 % too high. Found 1.6e-4 and 3.5e-4 of G below
+    # 0.8, where Jaumann's rate is 6.7e-3 off, and 7.7e-3 and 8.3e-3 at the end
     load = run(
         tmp_path,
         "viscoplastic",
@@ -234,10 +235,10 @@ def test_elastic_shear_by_the_logarithmic_rate_is_that_of_hencky(tmp_path):
     shear = load["shearStress"] / theory.G
     axial = load["axialStress"] / theory.G
     early = load["shearStrain"] < 0.8
-    assert np.allclose(shear[early], (2 * h / np.cosh(h))[early], atol=2e-3)
-    assert np.allclose(axial[early], (2 * h * np.tanh(h))[early], atol=2e-3)
-    assert np.allclose(shear, 2 * h / np.cosh(h), atol=3e-2)
-    assert np.allclose(axial, 2 * h * np.tanh(h), atol=3e-2)
+    assert np.allclose(shear[early], (2 * h / np.cosh(h))[early], atol=1e-3)
+    assert np.allclose(axial[early], (2 * h * np.tanh(h))[early], atol=1e-3)
+    assert np.allclose(shear, 2 * h / np.cosh(h), atol=1.2e-2)
+    assert np.allclose(axial, 2 * h * np.tanh(h), atol=1.2e-2)
 
 
 def test_j_law_reaches_20_kpa_at_a_strain_of_1_5(tmp_path):

@@ -3,14 +3,16 @@
 """./Allrun validate speed: what it reads, and the stock solver beside ours."""
 
 import re
+import shutil
 
 import numpy as np
 import pytest
-from bolus_validation import stock
+from bolus_validation import speed_study, stock
 from bolus_validation.profiling import PHASES, phases, read_profile
 from bolus_validation.results import write_json
 from bolus_validation.specimens import prepare_compression
 from bolus_validation.speed_study import stock_wire
+from bolus_validation.studies import REGISTRY
 from bolus_validation.summary import summary
 from bolus_validation.synthetic import run
 
@@ -72,6 +74,26 @@ def test_the_summary_tells_where_the_time_went(profiled):
     assert re.search(r"^ +factorisation +[\d.]+ s$", text, re.M)
     seconds = phases(profiled)["total"]
     assert f"total         {seconds:8.1f} s" in text
+
+
+@pytest.mark.parametrize("gave_up", [False, True])
+def test_a_whole_run_is_held_against_its_limit(
+    profiled, tmp_path, monkeypatch, gave_up
+):
+    # One that gave up has neither results nor a clock time
+    case = tmp_path / "case"
+    shutil.copytree(profiled, case)
+    if gave_up:
+        (case / "stopped").write_text("no convergence at t = 0.4 s")
+        (case / "results.json").unlink(missing_ok=True)
+    monkeypatch.setattr(speed_study, "kept_run", lambda *_, **__: case)
+    found = REGISTRY["whole_D_0.3"].function(tmp_path, quick=False)
+    rows = {row.quantity: row for row in found.rows}
+    assert rows["within 10 min"].met
+    assert rows["to 32 s without a step given up"].met != gave_up
+    assert rows["steps"].value > 3
+    assert rows["time"].value > 0
+    assert rows["factorisation, since the last start"].value > 0
 
 
 def test_a_run_without_profile_has_no_phases(tmp_path):

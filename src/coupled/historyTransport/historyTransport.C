@@ -27,16 +27,16 @@ void Foam::historyTransport::pack()
     }
 
     // What is nowhere stays so; the pressure moves always. Shear out of the
-    // plane of a slice is round-off of the law
-    scalarField largest(q_.size());
-    forAll(q_, d) largest[d] = gMax(mag(q_[d]));
-    const scalar noStress = 1e-10 * max(SubList<scalar>(largest, 6, 3));
+    // plane of a slice is round-off (1e-13 of the stress in case D)
+    scalarField most(q_.size());
+    forAll(q_, d) most[d] = gMax(mag(q_[d]));
+    const scalar noStress = 1e-10 * max(SubList<scalar>(most, 6, 3));
     DynamicList<label> used;
     forAll(q_, d)
     {
         const bool stress = d >= 3 && d < 9;
-        if (d == 0 || largest[d] > (stress ? noStress : 0)) used.append(d);
-        if (stress && largest[d] <= noStress) q_[d] = 0;
+        if (d == 0 || most[d] > (stress ? noStress : 0)) used.append(d);
+        if (stress && most[d] <= noStress) q_[d] = 0;
     }
     used_ = used;
 }
