@@ -28,9 +28,11 @@ from bolus_validation.results import read_table, run_numbers  # noqa: E402
 from bolus_validation.specimens import compression  # noqa: E402
 from bolus_validation.studies import (  # noqa: E402
     Findings,
+    gastric_settings,
     holds,
     kept_run,
     study,
+    whole_run,
 )
 
 # Cell sizes [mm], and until when [s]: the wave is in the bolus from 6.9 s on
@@ -44,10 +46,9 @@ def timed_run(size: float, ranks: int) -> Path:
         "gastric/caseA",
         "speed",
         ranks=ranks,
-        resolution=size * 1e-3,
-        pylorusRefinement=max(2.5 * size, 1.0),
         endTime=END,
         **{"system/controlDict:profiling.active": "true"},
+        **gastric_settings(size),
     )
 
 
@@ -138,14 +139,7 @@ def register_whole(case: str, size: float) -> None:
     def run_study(folder: Path, quick: bool) -> Findings:
         found = Findings()
         found.remarks.append(load())
-        path = kept_run(
-            f"gastric/case{case}",
-            "speed",
-            ranks=2,
-            resolution=size * 1e-3,
-            pylorusRefinement=max(2.5 * size, 1.0),
-            **{"system/controlDict:profiling.active": "true"},
-        )
+        path = kept_run(**whole_run(case, size))
         for phase, seconds in phases(path).items():
             found.row(f"{phase}, since the last start", "s", seconds)
         run = run_numbers(path)

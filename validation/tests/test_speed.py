@@ -7,7 +7,7 @@ import shutil
 
 import numpy as np
 import pytest
-from bolus_validation import speed_study, stock
+from bolus_validation import gastric_study, speed_study, stock
 from bolus_validation.profiling import PHASES, phases, read_profile
 from bolus_validation.results import write_json
 from bolus_validation.specimens import prepare_compression
@@ -94,6 +94,32 @@ def test_a_whole_run_is_held_against_its_limit(
     assert rows["steps"].value > 3
     assert rows["time"].value > 0
     assert rows["factorisation, since the last start"].value > 0
+
+
+def test_the_gastric_page_takes_a_whole_run_that_is_there(
+    tmp_path, monkeypatch
+):
+    whole = speed_study.whole_run("D", 0.3)
+    assert whole["ranks"] == 2 and whole["resolution"] == pytest.approx(3e-4)
+    made = []
+    monkeypatch.setattr(
+        gastric_study,
+        "run_folder",
+        lambda **arguments: tmp_path if arguments == whole else None,
+    )
+    monkeypatch.setattr(
+        gastric_study,
+        "kept_run",
+        lambda *_, **settings: made.append(settings) or tmp_path / "other",
+    )
+    # Not before its end
+    assert gastric_study.gastric_run("D", 0.3) == tmp_path / "other"
+    (tmp_path / "finished").touch()
+    assert gastric_study.gastric_run("D", 0.3) == tmp_path
+    # It has no other settings
+    monkeypatch.setattr(gastric_study, "run_folder", lambda **_: tmp_path)
+    assert gastric_study.gastric_run("D", 0.3, mu=0) == tmp_path / "other"
+    assert [m.get("mu") for m in made] == [None, 0]
 
 
 def test_a_run_without_profile_has_no_phases(tmp_path):
