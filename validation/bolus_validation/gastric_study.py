@@ -197,7 +197,7 @@ def register_cases(size: float) -> None:
         paths = {}
         runs = {c: (c, {}) for c in CASES}
         if size >= ENDLESS_FROM:
-            runs[ENDLESS] = ("D", {"law": "JLaw", "fullSteps": 20})
+            runs[ENDLESS] = ("D", {"law": "JLaw"})
         for c, (case, settings) in runs.items():
             try:
                 paths[c] = gastric_run(case, size, **settings)
