@@ -126,20 +126,23 @@ LONGEST = {0.3: 10, 0.15: 45}
 LONGEST_D = {0.3: 10, 0.15: 60}
 
 
-def register_whole(case: str, size: float) -> None:
-    """The study of a whole run on two cores."""
+def register_whole(case: str, size: float, law: str | None = None) -> None:
+    """The study of a whole run on two cores, by the case's law or another."""
 
     @study(
-        f"whole_{case}_{size:g}",
+        f"whole_{case}{law or ''}_{size:g}",
         "W",
-        f"Case {case} over 32 s on cells of {size:g} mm, two cores",
+        f"Case {case} {f'({law}) ' if law else ''}over 32 s on cells of "
+        f"{size:g} mm, two cores",
         "the time it may take; no step given up",
         long=True,
     )
     def run_study(folder: Path, quick: bool) -> Findings:
         found = Findings()
         found.remarks.append(load())
-        path = kept_run(**whole_run(case, size))
+        path = kept_run(
+            **whole_run(case, size, **({"law": law} if law else {}))
+        )
         for phase, seconds in phases(path).items():
             found.row(f"{phase}, since the last start", "s", seconds)
         run = run_numbers(path)
@@ -167,6 +170,8 @@ def register_whole(case: str, size: float) -> None:
 for _case in "ABCD":
     for _size in LONGEST:
         register_whole(_case, _size)
+for _size in LONGEST_D:
+    register_whole("D", _size, "JLawLimited")
 
 
 @study(

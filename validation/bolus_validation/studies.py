@@ -243,16 +243,17 @@ def gastric_settings(size: float) -> dict:
     }
 
 
-def whole_run(case: str, size: float) -> dict:
-    """Arguments of kept_run for a gastric case over 32 s on two cores,
-    profiled: the studies whole_... of the page speed; the page gastric takes
-    such a run where it is there."""
+def whole_run(case: str, size: float, **settings) -> dict:
+    """Arguments of kept_run for a gastric case over 32 s on two cores, with
+    other settings as of -set, profiled: the studies whole_... of the page
+    speed; the page gastric takes such a run where there is one."""
     return {
         "tutorial": f"gastric/case{case}",
         "page": "speed",
         "ranks": 2,
         "system/controlDict:profiling.active": "true",
         **gastric_settings(size),
+        **settings,
     }
 
 

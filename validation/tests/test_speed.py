@@ -116,8 +116,12 @@ def test_the_gastric_page_takes_a_whole_run_that_is_there(
     assert gastric_study.gastric_run("D", 0.3) == tmp_path / "other"
     (tmp_path / "finished").touch()
     assert gastric_study.gastric_run("D", 0.3) == tmp_path
-    # It has no other settings
-    monkeypatch.setattr(gastric_study, "run_folder", lambda **_: tmp_path)
+    # That one has no other settings
+    monkeypatch.setattr(
+        gastric_study,
+        "run_folder",
+        lambda **arguments: tmp_path / str(arguments.get("mu")),
+    )
     assert gastric_study.gastric_run("D", 0.3, mu=0) == tmp_path / "other"
     assert [m.get("mu") for m in made] == [None, 0]
 
