@@ -108,6 +108,14 @@ MUTATIONS = (
         "test_rheology.py -k JLawThatEnds",
     ),
     Mutation(
+        "flow stress of the J law whatever the rate",
+        "src/rheology/flowStress/powerHardening/powerHardeningFlowStress.C",
+        "return (1 + rateSensitivity_ * rate)\n        * (sigmaY_",
+        "return 1\n        * (sigmaY_",
+        RHEOLOGY,
+        "test_rheology.py -k j_law_with_a_rate",
+    ),
+    Mutation(
         "damage whatever the triaxiality",
         "src/rheology/damageModel/triaxialOnsetDamage/triaxialOnsetDamage.H",
         "epsP > epsilonPEq0_ && eta > eta0_",

@@ -372,7 +372,10 @@ PetscErrorCode Foam::coupledSystem::convergedFunction(
     {
         *reason = SNES_CONVERGED_FNORM_ABS;
     }
-    else if (it >= (system.leap_ ? system.fullSteps_ : system.maxIterations_))
+    else if (
+        system.spent_ + it >= system.maxIterations_
+        || (system.leap_ && it >= system.fullSteps_)
+    )
     {
         *reason = SNES_DIVERGED_MAX_IT;
     }
@@ -398,6 +401,7 @@ SNESConvergedReason Foam::coupledSystem::iterate()
     SNESGetConvergedReason(snes_, &reason);
     SNESGetIterationNumber(snes_, &iterations);
     report_.iterations += iterations;
+    spent_ += iterations;
     return reason;
 }
 
@@ -443,16 +447,23 @@ SNESConvergedReason Foam::coupledSystem::newton()
     // search may find no way down from one, where a full step passes it. Where
     // that fails, pressures of cells with less room follow at once as well: in
     // a step of any length a few of them can hold the line search of all.
+    // What has not converged by maxIterations of all this together hardly ever
+    // does: a shorter step, or lagged friction, is cheaper.
     secant_ = true;
     leap_ = false;
     mayLeap_ = fullSteps_ > 0;
     bestResidual_ = GREAT;
     eliminateFrom_ = eliminateRoom_;
+    spent_ = 0;
     SNESConvergedReason reason;
     for (label attempt = 0; attempt < 4;)
     {
         reason = iterate();
-        if (reason > 0 || reason == SNES_DIVERGED_FNORM_NAN) break;
+        if (reason > 0 || reason == SNES_DIVERGED_FNORM_NAN
+            || spent_ >= maxIterations_)
+        {
+            break;
+        }
         if (mayLeap_)
         {
             const SNESConvergedReason leapt = leap();

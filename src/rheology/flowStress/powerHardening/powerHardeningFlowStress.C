@@ -38,35 +38,42 @@ Foam::flowStresses::powerHardeningFlowStress::powerHardeningFlowStress(
         entryReader::positive,
         GREAT
     );
+    rateSensitivity_ = read.number(
+        "rateSensitivity",
+        "relative rise of the flow stress by the plastic strain rate [s]",
+        entryReader::nonNegative,
+        0
+    );
 
     read.rejectOthers();
 }
 
 
-// * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * * //
+// * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
 Foam::scalar Foam::flowStresses::powerHardeningFlowStress::value(
-    const scalar,
+    const scalar rate,
     const scalar epsP
 ) const
 {
     const scalar hardening = std::min(std::max(epsP, scalar(0)), hardensUntil_);
 
-    return sigmaY_ + H_ * std::pow(hardening, m_);
+    return (1 + rateSensitivity_ * rate)
+        * (sigmaY_ + H_ * std::pow(hardening, m_));
 }
 
 
 Foam::scalar Foam::flowStresses::powerHardeningFlowStress::dRate(
     const scalar,
-    const scalar
+    const scalar epsP
 ) const
 {
-    return 0;
+    return rateSensitivity_ * value(0, epsP);
 }
 
 
 Foam::scalar Foam::flowStresses::powerHardeningFlowStress::dEpsP(
-    const scalar,
+    const scalar rate,
     const scalar epsP
 ) const
 {
@@ -75,7 +82,8 @@ Foam::scalar Foam::flowStresses::powerHardeningFlowStress::dEpsP(
         return 0;
     }
 
-    return H_ * m_ * std::pow(std::max(epsP, scalar(1e-100)), m_ - 1);
+    return (1 + rateSensitivity_ * rate) * H_ * m_
+        * std::pow(std::max(epsP, scalar(1e-100)), m_ - 1);
 }
 
 
