@@ -182,6 +182,10 @@ def run_numbers(path: Path) -> dict:
         found["rejectedSteps"] = value(int(steps["rejected"][-1]), "-")
         if "lagged" in steps.columns:
             found["laggedSteps"] = value(int(steps["lagged"][-1]), "-")
+        if "turnedLater" in steps.columns:
+            found["turnedLaterSteps"] = value(
+                int(steps["turnedLater"][-1]), "-"
+            )
         found["maxCourant"] = value(steps["courant"].max(), "-")
         found["maxMassError"] = value(np.abs(steps["massError"]).max(), "-")
         found["alphaMin"] = value(steps["alphaMin"].min(), "-")

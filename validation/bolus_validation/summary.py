@@ -21,6 +21,7 @@ _LINES = (
     ("time steps", "run.steps", 1, "", "d"),
     ("rejected", "run.rejectedSteps", 1, "", "d"),
     ("friction lagged", "run.laggedSteps", 1, "", "d"),
+    ("turning lagged", "run.turnedLaterSteps", 1, "", "d"),
     ("Newton iterations", "run.newtonIterations", 1, "", "d"),
     ("cells", "run.cells", 1, "", "d"),
     ("cores", "run.cores", 1, "", "d"),

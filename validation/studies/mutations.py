@@ -108,14 +108,6 @@ MUTATIONS = (
         "test_rheology.py -k JLawThatEnds",
     ),
     Mutation(
-        "flow stress of the J law whatever the rate",
-        "src/rheology/flowStress/powerHardening/powerHardeningFlowStress.C",
-        "return (1 + rateSensitivity_ * rate)\n        * (sigmaY_",
-        "return 1\n        * (sigmaY_",
-        RHEOLOGY,
-        "test_rheology.py -k j_law_with_a_rate",
-    ),
-    Mutation(
         "damage whatever the triaxiality",
         "src/rheology/damageModel/triaxialOnsetDamage/triaxialOnsetDamage.H",
         "epsP > epsilonPEq0_ && eta > eta0_",
@@ -130,6 +122,14 @@ MUTATIONS = (
         "&& tensileStrain >= 0;",
         RHEOLOGY,
         "test_rheology.py -k waits_for_plastic_strain",
+    ),
+    Mutation(
+        "stress that never turns where it should turn later",
+        CELL,
+        "return mag(r.r.s) / max(mag(whole.s), VSMALL) * whole.s;",
+        "return r.r.s;",
+        COUPLED,
+        "test_solver.py -k stress_turns",
     ),
     Mutation(
         "lagged friction with twice the pressure",

@@ -40,9 +40,6 @@ LAWS = {
     ),
 }
 
-# Rises by a quarter at 0.5/s
-J_LAW_OF_RATE = "flowStress { hardensUntil 0.25; rateSensitivity 0.5; }"
-
 RATES = [0.01, 0.1, 1.0]
 
 
@@ -252,18 +249,6 @@ def test_j_law_reaches_20_kpa_at_a_strain_of_1_5(tmp_path):
     assert load["sigmaEq"][-1] == pytest.approx(20e3, rel=1e-3)
 
 
-def test_j_law_with_a_rate_sensitivity_rises_with_the_rate(tmp_path):
-    # Where hardening has ended the plastic rate is that of the strain
-    load = run(
-        tmp_path,
-        "JLaw",
-        "load { mode uniaxial; rate 0.5; strain -1.5; }",
-        override=J_LAW_OF_RATE,
-    )["load"]
-    ended = theory.PowerHardening(ends=0.25).stress(1.0)
-    assert load["sigmaEq"][-1] == pytest.approx(1.25 * ended, rel=1e-6)
-
-
 def test_herschel_bulkley_fits_the_table_within_150_pa(tmp_path):
     for rate, stress in zip(theory.RATES[1:], theory.STRESSES[1:], strict=True):
         load = run(
@@ -342,8 +327,8 @@ def test_return_mapping_holds_from_1e_6_to_1e6_per_second(
 @pytest.mark.parametrize(
     "properties, override",
     [(properties, override) for _, properties, override in LAWS.values()]
-    + [("viscoplasticDamage", ""), ("JLaw", J_LAW_OF_RATE)],
-    ids=[*LAWS, "viscoplasticDamage", "JLawOfRate"],
+    + [("viscoplasticDamage", "")],
+    ids=[*LAWS, "viscoplasticDamage"],
 )
 def test_tangent_equals_finite_differences_within_1e_6(
     tmp_path, properties, override
@@ -584,11 +569,6 @@ TABLE_ENTRIES = "type tabulated; table ((0 4100) (0.01 7000));"
             TABLE_ENTRIES,
             J_ENTRIES + " hardensUntil 0;",
             ["hardensUntil is 0", "> 0"],
-        ),
-        (
-            TABLE_ENTRIES,
-            J_ENTRIES + " rateSensitivity -1;",
-            ["rateSensitivity is -1", ">= 0"],
         ),
         # damage
         ("damage {", "damages {", ["Missing dictionary damage"]),

@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 from bolus_validation import rheology
 from bolus_validation.fields import Case
+from bolus_validation.physics import objectivity
 from bolus_validation.results import read_table
 from bolus_validation.specimens import (
     HEIGHT,
@@ -311,6 +312,27 @@ def settings(**entries) -> list[str]:
     return [
         word for name, x in entries.items() for word in ("-set", f"{name}={x}")
     ]
+
+
+@pytest.mark.parametrize("later", [False, True], ids=["within", "later"])
+def test_stress_turns_within_equilibrium_or_after_it(folder, later):
+    # Elastic: Jaumann's rate gives G sin(shear) and G (1 - cos(shear))
+    case = folder / f"turning{later}"
+    elastic = "type powerHardening; sigmaY 1e9; H 0; m 1;"
+    times, found, spread = objectivity.shear(case, elastic, 0.05, later=later)
+    loading = times < objectivity.SHEARED + 1e-9
+    angle = objectivity.shear_at(times[loading])
+    xx, xy = found[loading, 0], found[loading, 1]
+    shear_modulus = rheology.E / (2 * (1 + rheology.NU))
+    exact = shear_modulus * np.array([1 - np.cos(angle), np.sin(angle)])
+    assert np.max(abs(exact - [xx, xy])) < 0.005 * exact.max()
+    assert spread < 1e-3 * exact.max()
+
+    # Told and counted
+    steps = read_table(case, "solver", "steps")
+    assert steps["turnedLater"][-1] == (steps.time.size if later else 0)
+    told = "turns after equilibrium" in (case / "log.bolusFoam").read_text()
+    assert told == later
 
 
 # With friction, so that the contact's memory counts as well

@@ -30,6 +30,8 @@ Foam::progress::progress(
     emptied_(books_.lookupOrDefault<scalar>("emptied", 0)),
     overfull_(books_.lookupOrDefault<label>("overfull", 0)),
     lagged_(books_.lookupOrDefault<label>("lagged", 0)),
+    turned_(books_.lookupOrDefault<label>("turned", 0)),
+    turning_(false),
     spilled_(books_.lookupOrDefault<scalar>("spilled", 0)),
     alphaMin_(GREAT),
     alphaMax_(-GREAT),
@@ -54,8 +56,9 @@ Foam::progress::progress(
         file_.reset(new OFstream(dir / "steps.dat"));
         file_() << "# time [s]" << tab << "deltaT [s]" << tab
                 << "NewtonIterations [-]" << tab << "rejected [-]" << tab
-                << "lagged [-]" << tab << "courant [-]" << tab << "subSteps [-]"
-                << tab << "slowSubSteps [-]" << tab << "massError [-]" << tab
+                << "lagged [-]" << tab << "turnedLater [-]" << tab
+                << "courant [-]" << tab << "subSteps [-]" << tab
+                << "slowSubSteps [-]" << tab << "massError [-]" << tab
                 << "alphaMin [-]" << tab << "alphaMax [-]" << tab
                 << "epsilonPEqMin [-]" << tab << "cpuTime [s]" << endl;
     }
@@ -94,6 +97,19 @@ void Foam::progress::step(
              << " (step " << lagged_ << " of this kind)" << endl;
     }
 
+    if (solved.turningLagged)
+    {
+        books_.set("turned", ++turned_);
+        if (!turning_)
+        {
+            Info << "t " << time_.value() << " s, dt " << time_.deltaTValue()
+                 << " s: the stress turns after equilibrium was found, here and"
+                 << " in the next steps (step " << turned_ << " of this kind)"
+                 << endl;
+        }
+    }
+    turning_ = solved.turningLagged;
+
     massError_ = (fields_.totalMass() + emptied_ - initial_) / initial_;
     const scalar low = gMin(fields_.alpha.primitiveField());
     const scalar high = gMax(fields_.alpha.primitiveField());
@@ -112,10 +128,10 @@ void Foam::progress::step(
     {
         file_() << time_.value() << tab << time_.deltaTValue() << tab
                 << solved.iterations << tab << control_.rejected() << tab
-                << lagged_ << tab << moved.courant << tab << moved.subSteps
-                << tab << moved.slowSubSteps << tab << massError_ << tab << low
-                << tab << high << tab << leastStrain << tab
-                << time_.elapsedCpuTime() << endl;
+                << lagged_ << tab << turned_ << tab << moved.courant << tab
+                << moved.subSteps << tab << moved.slowSubSteps << tab
+                << massError_ << tab << low << tab << high << tab << leastStrain
+                << tab << time_.elapsedCpuTime() << endl;
     }
 
     // Not time_.run(), which would execute the function objects
@@ -161,6 +177,7 @@ void Foam::progress::summary(const label linearIterations) const
          << "    steps            " << control_.steps() << nl
          << "    rejected steps   " << control_.rejected() << nl
          << "    friction lagged  " << lagged_ << " steps" << nl
+         << "    turning lagged   " << turned_ << " steps" << nl
          << "    Newton iterations " << control_.iterations() << nl
          << "    linear iterations " << linearIterations << nl
          << "    mass error       " << massError_ << nl

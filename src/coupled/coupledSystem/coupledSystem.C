@@ -245,6 +245,16 @@ Foam::coupledSystem::coupledSystem(
     deltaT_(1),
     rubs_(false),
     lagged_(false),
+    memory_(IOobject(
+        "coupledSystem",
+        mesh_.time().timeName(),
+        "uniform",
+        mesh_.time(),
+        IOobject::READ_IF_PRESENT,
+        IOobject::AUTO_WRITE
+    )),
+    turnLater_(memory_.lookupOrDefault<label>("turnLater", 0)),
+    turningLagged_(false),
     secant_(true),
     eliminate_(true),
     q_(space_.nd() * space_.nNodes(), Zero),
@@ -271,6 +281,12 @@ Foam::coupledSystem::coupledSystem(
     lagFrictionBelow_ = read.number(
         "lagFrictionBelow",
         "longest step whose friction may be lagged [s]",
+        nonNegative,
+        1e-3
+    );
+    lagTurningBelow_ = read.number(
+        "lagTurningBelow",
+        "longest step whose turning of the stress may be lagged [s]",
         nonNegative,
         1e-3
     );
@@ -365,6 +381,8 @@ void Foam::coupledSystem::accept(
 {
     gather(x_);
     state_.pStart.primitiveFieldRef() = pCell_;
+    if (turningLagged_) --turnLater_;
+    memory_.set("turnLater", turnLater_);
 
     vectorField& v = state_.pointU.primitiveFieldRef();
     space_.toPoints(q_, v);
@@ -439,7 +457,14 @@ void Foam::coupledSystem::accept(
         state_.U[c] = U;
 
         const bool bolus = a_[c] > 0;
-        state_.deviator[c] = bolus ? r.r.s : symmTensor(Zero);
+        if (bolus)
+        {
+            state_.deviator[c] = turningLagged_ ? turned(c, r) : r.r.s;
+        }
+        else
+        {
+            state_.deviator[c] = Zero;
+        }
         state_.theta[c] = bolus ? r.r.theta : 1;
         if (bolus)
         {

@@ -29,7 +29,7 @@ void Foam::coupledSystem::evaluate(const label c, cellResult& r) const
     if (a > SMALL)
     {
         law_.update(
-            r.gradU - r.growth * tensor(N_[c]),
+            seen(r.gradU - r.growth * tensor(N_[c])),
             deltaT_,
             state_.deviator[c],
             state_.epsilonPEq[c],
@@ -51,6 +51,24 @@ void Foam::coupledSystem::evaluate(const label c, cellResult& r) const
 
     r.P = -(a * p + (1 - a) * r.pv);
     r.dev = a * r.r.s + (2 * eta_[c]) * dev(symm(r.gradU));
+}
+
+
+Foam::symmTensor Foam::coupledSystem::turned(
+    const label c,
+    const cellResult& r
+) const
+{
+    elastoViscoPlastic::response whole;
+    law_.update(
+        r.gradU - r.growth * tensor(N_[c]),
+        deltaT_,
+        state_.deviator[c],
+        state_.epsilonPEq[c],
+        damaged_[c],
+        whole
+    );
+    return mag(r.r.s) / max(mag(whole.s), VSMALL) * whole.s;
 }
 
 
@@ -288,8 +306,9 @@ void Foam::coupledSystem::assembleCell(
             dS_[j] = Zero;
             if (a > SMALL)
             {
-                dS_[j] =
-                    law_.tangent(isP ? -dGrowth * N : G[j] - dGrowth * N, r.r);
+                dS_[j] = law_.tangent(
+                    seen(isP ? -dGrowth * N : G[j] - dGrowth * N), r.r
+                );
             }
             dPv_[j] = (isP ? 1 : 0) - (N_[c] && dS_[j]);
             dP_[j] = -((isP ? a : 0) + (1 - a) * dPv_[j]);

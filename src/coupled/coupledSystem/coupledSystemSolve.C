@@ -448,7 +448,7 @@ SNESConvergedReason Foam::coupledSystem::newton()
     // that fails, pressures of cells with less room follow at once as well: in
     // a step of any length a few of them can hold the line search of all.
     // What has not converged by maxIterations of all this together hardly ever
-    // does: a shorter step, or lagged friction, is cheaper.
+    // does: a shorter step, or one that lags something, is cheaper.
     secant_ = true;
     leap_ = false;
     mayLeap_ = fullSteps_ > 0;
@@ -518,7 +518,16 @@ const Foam::coupledSystem::report& Foam::coupledSystem::solve(
     sLast_ = Zero;
     report_.iterations = 0;
     lagged_ = false;
+    turningLagged_ = turnLater_ > 0 && deltaT_ <= lagTurningBelow_;
     SNESConvergedReason reason = newton();
+
+    // Turning may take more stress from what shears than strain gives it
+    if (reason < 0 && !turningLagged_ && deltaT_ <= lagTurningBelow_)
+    {
+        turningLagged_ = true;
+        turnLater_ = turnLaterSteps_;
+        reason = newton();
+    }
 
     // Where the threshold of a face falls faster than its load as it begins to
     // slip, there is no equilibrium to be found: the thing snaps. A threshold
@@ -529,6 +538,7 @@ const Foam::coupledSystem::report& Foam::coupledSystem::solve(
         reason = newton();
     }
     report_.frictionLagged = lagged_;
+    report_.turningLagged = turningLagged_;
     report_.converged = reason > 0;
     report_.reason = SNESConvergedReasons[reason];
     return report_;

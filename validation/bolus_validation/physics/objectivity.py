@@ -73,10 +73,11 @@ def exact_shear(law, times):
     return np.concatenate(stresses)
 
 
-def shear(case: Path, flow: str, step: float, n: int = 6):
+def shear(case: Path, flow: str, step: float, n: int = 6, later=False):
     """Shear a block whose whole boundary moves as in simple shear.
 
-    The mesh inside is uneven. Returns times (m,) [s] and, over the cells,
+    The mesh inside is uneven. later: the stress turns after equilibrium was
+    found (lagTurningBelow), in all steps. Returns times (m,) [s] and, over the cells,
     mean deviators (m, 6) [Pa] and their spread, the largest difference.
     """
 
@@ -98,7 +99,16 @@ def shear(case: Path, flow: str, step: float, n: int = 6):
         step,
         knots=(0, SHEARED, HELD, UNLOADED),
         write=0.2,
+        solver="lagTurningBelow 1;" if later else "",
     )
+    if later:
+        # As after a step that failed with it, for ever
+        memory = case / "0" / "uniform" / "coupledSystem"
+        memory.parent.mkdir()
+        memory.write_text(
+            "FoamFile { version 2.0; format ascii; class dictionary;"
+            " object coupledSystem; }\nturnLater 1000000;\n"
+        )
     fields, _ = finish(case)
     times = np.array(list(fields.times)[1:])
     found = np.array([fields.field(t, "deviator") for t in times])

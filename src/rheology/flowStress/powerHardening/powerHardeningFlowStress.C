@@ -38,42 +38,35 @@ Foam::flowStresses::powerHardeningFlowStress::powerHardeningFlowStress(
         entryReader::positive,
         GREAT
     );
-    rateSensitivity_ = read.number(
-        "rateSensitivity",
-        "relative rise of the flow stress by the plastic strain rate [s]",
-        entryReader::nonNegative,
-        0
-    );
 
     read.rejectOthers();
 }
 
 
-// * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+// * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * * //
 
 Foam::scalar Foam::flowStresses::powerHardeningFlowStress::value(
-    const scalar rate,
+    const scalar,
     const scalar epsP
 ) const
 {
     const scalar hardening = std::min(std::max(epsP, scalar(0)), hardensUntil_);
 
-    return (1 + rateSensitivity_ * rate)
-        * (sigmaY_ + H_ * std::pow(hardening, m_));
+    return sigmaY_ + H_ * std::pow(hardening, m_);
 }
 
 
 Foam::scalar Foam::flowStresses::powerHardeningFlowStress::dRate(
     const scalar,
-    const scalar epsP
+    const scalar
 ) const
 {
-    return rateSensitivity_ * value(0, epsP);
+    return 0;
 }
 
 
 Foam::scalar Foam::flowStresses::powerHardeningFlowStress::dEpsP(
-    const scalar rate,
+    const scalar,
     const scalar epsP
 ) const
 {
@@ -82,8 +75,7 @@ Foam::scalar Foam::flowStresses::powerHardeningFlowStress::dEpsP(
         return 0;
     }
 
-    return (1 + rateSensitivity_ * rate) * H_ * m_
-        * std::pow(std::max(epsP, scalar(1e-100)), m_ - 1);
+    return H_ * m_ * std::pow(std::max(epsP, scalar(1e-100)), m_ - 1);
 }
 
 
