@@ -77,8 +77,8 @@ def shear(case: Path, flow: str, step: float, n: int = 6, later=False):
     """Shear a block whose whole boundary moves as in simple shear.
 
     The mesh inside is uneven. later: the stress turns after equilibrium was
-    found (lagTurningBelow), in all steps. Returns times (m,) [s] and, over the cells,
-    mean deviators (m, 6) [Pa] and their spread, the largest difference.
+    found (lagTurningBelow), in all steps. Returns times (m,) [s] and, over the
+    cells, mean deviators (m, 6) [Pa] and their spread, the largest difference.
     """
 
     def place(unit):
