@@ -27,6 +27,7 @@ from bolus_validation.fields import Case  # noqa: E402
 from bolus_validation.report import CASE_A, Run  # noqa: E402
 from bolus_validation.results import energy_shares, read_table  # noqa: E402
 from bolus_validation.studies import (
+    HARDENING_ENDS,
     Findings,
     GaveUp,
     energy_residual,
@@ -198,7 +199,7 @@ def register_cases(size: float) -> None:
         found = Findings()
         paths = {}
         runs = {c: (c, {}) for c in CASES}
-        runs[LIMITED] = ("D", {"law": "JLawLimited"})
+        runs[LIMITED] = ("D", HARDENING_ENDS)
         if size < D_FROM:
             del runs["D"]
             why = f"not run: Newton's method crawls; see cases_{D_FROM:g}"

@@ -27,6 +27,7 @@ from bolus_validation.profiling import PHASES, phases  # noqa: E402
 from bolus_validation.results import read_table, run_numbers  # noqa: E402
 from bolus_validation.specimens import compression  # noqa: E402
 from bolus_validation.studies import (  # noqa: E402
+    HARDENING_ENDS,
     Findings,
     gastric_settings,
     holds,
@@ -126,8 +127,9 @@ LONGEST = {0.3: 10, 0.15: 45}
 LONGEST_D = {0.3: 10, 0.15: 60}
 
 
-def register_whole(case: str, size: float, law: str | None = None) -> None:
-    """The study of a whole run on two cores, by the case's law or another."""
+def register_whole(case: str, size: float, **settings) -> None:
+    """The study of a whole run on two cores, with other settings as of -set."""
+    law = settings.get("law")
 
     @study(
         f"whole_{case}{law or ''}_{size:g}",
@@ -140,13 +142,14 @@ def register_whole(case: str, size: float, law: str | None = None) -> None:
     def run_study(folder: Path, quick: bool) -> Findings:
         found = Findings()
         found.remarks.append(load())
-        path = kept_run(
-            **whole_run(case, size, **({"law": law} if law else {}))
-        )
+        path = kept_run(**whole_run(case, size, **settings))
         for phase, seconds in phases(path).items():
             found.row(f"{phase}, since the last start", "s", seconds)
         run = run_numbers(path)
-        for name in ("cells", "steps", "rejectedSteps", "newtonIterations"):
+        for name in (
+            *("cells", "steps", "rejectedSteps"),
+            *("laggedSteps", "turnedLaterSteps", "newtonIterations"),
+        ):
             found.row(name, "-", run[name]["value"])
         # A start that was killed or gave up has left no clock time, but that
         # of its first rank
@@ -171,7 +174,7 @@ for _case in "ABCD":
     for _size in LONGEST:
         register_whole(_case, _size)
 for _size in LONGEST_D:
-    register_whole("D", _size, "JLawLimited")
+    register_whole("D", _size, **HARDENING_ENDS)
 
 
 @study(

@@ -234,6 +234,14 @@ def run_folder(tutorial: str, page: str, ranks: int = 1, **settings) -> Path:
     return folder / f"{Path(tutorial).name}-{key.hexdigest()[:16]}"
 
 
+# -set entries of case D with an end of its hardening
+HARDENING_ENDS = {
+    "law": "JLawLimited",
+    "lagTurningBelow": 1,
+    "lagFrictionBelow": 1e-3,
+}
+
+
 def gastric_settings(size: float) -> dict:
     """-set entries of a gastric case on cells of a size [mm]: below 0.4 mm
     the pylorus needs none that are shorter."""

@@ -12,7 +12,7 @@ from bolus_validation import gastric_study
 from bolus_validation.gastric_study import LIMITED, figures
 from bolus_validation.results import read_table
 from bolus_validation.specimens import run_case
-from bolus_validation.studies import REGISTRY, GaveUp
+from bolus_validation.studies import HARDENING_ENDS, REGISTRY, GaveUp
 
 OBJECTIVE_RATE = "constant/bolusProperties:elasticity.objectiveRate"
 
@@ -24,10 +24,12 @@ def cases(tmp_path_factory):
     folders = {}
     for name in (*"ABCD", LIMITED):
         folders[name] = base / name.replace(" ", "")
+        ends = HARDENING_ENDS if name == LIMITED else {}
+        extra = [f"{entry}={given}" for entry, given in ends.items()]
         run_case(
             f"gastric/case{name[0]}",
             *("-set", "resolution=2e-3", "-set", "pylorusRefinement=4"),
-            *(("-set", "law=JLawLimited") if name == LIMITED else ()),
+            *(w for o in extra for w in ("-set", o)),
             *("-out", folders[name]),
         )
     return folders

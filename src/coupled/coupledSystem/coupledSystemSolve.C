@@ -541,6 +541,20 @@ const Foam::coupledSystem::report& Foam::coupledSystem::solve(
     report_.turningLagged = turningLagged_;
     report_.converged = reason > 0;
     report_.reason = SNESConvergedReasons[reason];
+
+    // Bolus that is shut in may find balance at any pressure: where that is a
+    // multiple of the bulk modulus, nothing that follows can be right
+    scalar strain = 0;
+    forAll(a_, c)
+    {
+        if (a_[c] > 0) strain = max(strain, mag(pCell_[c]));
+    }
+    strain = returnReduce(strain, maxOp<scalar>()) / law_.elastic().K();
+    if (report_.converged && strain > 100)
+    {
+        report_.converged = false;
+        report_.reason = "pressureOf100BulkModuli";
+    }
     return report_;
 }
 
