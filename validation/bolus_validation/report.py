@@ -46,8 +46,13 @@ class Run:
 
     def at(self, time: float, name: str) -> float | None:
         """A number of the fields at one of the paper's times; SI units."""
+        entry = self.entry(time, name)
+        return entry and entry["value"]
+
+    def entry(self, time: float, name: str) -> dict | None:
+        """That number with its unit and what else is told of it."""
         try:
-            return self.results["times"][f"{time:g}"][name]["value"]
+            return self.results["times"][f"{time:g}"][name]
         except KeyError:
             return None
 
@@ -86,10 +91,15 @@ def _not_loaded(run: Run, time: float) -> Finding:
 
 
 def _core_triaxiality(run: Run) -> Finding:
-    eta = run.at(7.5, "triaxialityMaxCore")
-    if eta is None:
+    core = run.entry(7.5, "triaxialityMaxCore")
+    if core is None:
         return _not_loaded(run, 7.5)
-    return (f"largest there {eta:.2f}", eta > 1)
+    place = f"at x = {1e3 * core['x']:.1f} mm"
+    stress = f"where σ_eq is {1e-3 * core['sigmaEq']:.2g} kPa"
+    return (
+        f"largest there {core['value']:.2f}, {place}, {stress}",
+        core["value"] > 1,
+    )
 
 
 def _first_damage(run: Run) -> Finding:

@@ -424,12 +424,18 @@ def state(case: Case, time: float) -> State:
                 found["triaxialityMinIntact"] = value(eta[carrying].min(), "-")
             # The core: within a third of the radius of a sphere of the volume
             # in the domain
-            if mesh.axisymmetric:
+            if mesh.axisymmetric and sigma is not None:
                 full = 2 * np.pi / mesh.wedge_angle * whole
                 radius = np.cbrt(3 * full / 4 / np.pi)
                 core = carrying & (mesh.radii < radius / 3)
                 if core.any():
-                    found["triaxialityMaxCore"] = value(eta[core].max(), "-")
+                    i = np.flatnonzero(core)[eta[core].argmax()]
+                    found["triaxialityMaxCore"] = value(
+                        eta[i],
+                        "-",
+                        x=float(mesh.cell_centres[i, 0]),
+                        sigmaEq=float(sigma[i]),
+                    )
         strain = field("epsilonPEq")
         if strain is not None:
             found["epsilonPEqMax"] = value(strain[bolus].max(), "-")

@@ -174,6 +174,8 @@ def broken_bolus(case, time=1, gap="void"):
     write_field(case, mesh, time, "U", velocity)
     sigma = np.where(r < 0.01, 5000.0, 0)
     eta = np.where(x > 0.02, 1.5, -4.0)
+    hottest = np.argmin((x - 0.03) ** 2 + r**2)
+    sigma[hottest], eta[hottest] = 6000, 1.7
     eta[crumb] = -900  # unloaded: hardly any stress
     write_field(case, mesh, time, "sigmaEq", sigma)
     write_field(case, mesh, time, "triaxiality", eta)
@@ -203,7 +205,10 @@ def test_state_looks_at_bolus_only(tmp_path):
     assert bolus["epsilonPEqMax"] == 3
     assert bolus["triaxialityMin"] == -900
     assert bolus["triaxialityMinIntact"] == -4
-    assert bolus["triaxialityMaxCore"] == 1.5
+    assert bolus["triaxialityMaxCore"] == 1.7
+    core = bolus.numbers["triaxialityMaxCore"]
+    assert core["x"] == pytest.approx(0.03, abs=0.6e-3)
+    assert core["sigmaEq"] == 6000
     assert bolus["damagedFraction"] == 0
 
 

@@ -5,13 +5,15 @@
 import re
 import shutil
 
+import numpy as np
 import pytest
 from bolus_validation.results import read_table
 from bolus_validation.specimens import (
+    box,
     prepare_compression,
     replace,
 )
-from bolus_validation.synthetic import run
+from bolus_validation.synthetic import run, write_field
 
 
 @pytest.fixture(scope="session")
@@ -259,6 +261,28 @@ def test_a_step_that_cannot_converge_ends_the_run_and_keeps_what_was_written(
     assert "minDeltaT 0.01" in message
     assert sorted(p.name for p in case.glob("0.[0-9]*")) == before
     assert (case / "0.4" / "p").read_bytes() == kept
+
+
+@pytest.mark.parametrize("bulk_moduli", [99, 101])
+def test_a_solution_with_a_pressure_of_100_bulk_moduli_is_rejected(
+    tmp_path, bulk_moduli
+):
+    # Bolus at rest in a closed box, in equilibrium at any pressure
+    wall = "type contactWall; friction { type none; } separation no;"
+    walls = dict.fromkeys(("x0", "x1", "y0", "y1"), wall)
+    mesh = box(tmp_path, (0.01, 0.01), (4, 4), walls, end=0.2, step=0.1)
+    bulk_modulus = 100e3 / (3 * (1 - 2 * 0.49))  # [Pa], of tutorials/common
+    pressure = np.full(mesh.n_cells, bulk_moduli * bulk_modulus)
+    write_field(tmp_path, mesh, 0, "p", pressure)
+    reason = "(pressureOf100BulkModuli, "
+    if bulk_moduli < 100:
+        assert reason not in run(tmp_path, "bolusFoam")
+    else:
+        output = run(tmp_path, "bolusFoam", ok=False)
+        assert output.count(reason) > 2
+        message = " ".join(output[output.index("FOAM FATAL") :].split())
+        assert "no convergence at t = " in message
+        assert "): pressureOf100BulkModuli, worst at" in message
 
 
 def test_a_flow_too_fast_to_be_moved_is_rejected_and_loses_nothing(
