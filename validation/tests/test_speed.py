@@ -2,8 +2,10 @@
 # Copyright (C) 2026 the bolusFoam developers
 """./Allrun validate speed: what it reads, and the stock solver beside ours."""
 
+import ctypes.util
 import re
 import shutil
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -12,7 +14,7 @@ from bolus_validation.profiling import PHASES, phases, read_profile
 from bolus_validation.results import write_json
 from bolus_validation.specimens import prepare_compression
 from bolus_validation.speed_study import stock_wire
-from bolus_validation.studies import REGISTRY
+from bolus_validation.studies import REGISTRY, ROOT
 from bolus_validation.summary import summary
 from bolus_validation.synthetic import run
 
@@ -164,3 +166,19 @@ def test_a_wire_by_inter_foam_and_by_bolus_foam(tmp_path):
     found = stock_wire(tmp_path, quick=True)
     errors = [row.error for row in found.rows if row.error is not None]
     assert len(errors) == 2 and max(errors) < 0.08
+
+
+def test_openblas_takes_kernels_of_this_processor():
+    # OpenBLAS falls back to Prescott's on a processor newer than itself
+    library = ctypes.util.find_library("openblas")
+    flags = Path("/proc/cpuinfo").read_text().split()
+    if library is None or not {"avx2", "fma"} <= set(flags):
+        pytest.skip("no OpenBLAS, or a processor as old as that")
+    name = (
+        f"import ctypes; blas = ctypes.CDLL('{library}');"
+        " core = blas.openblas_get_corename;"
+        " core.restype = ctypes.c_char_p; print(core().decode())"
+    )
+    environment = "unset OPENBLAS_CORETYPE; source scripts/environment"
+    told = run(ROOT, "bash", "-c", f'{environment}; python3 -c "{name}"')
+    assert told.strip() in ("SkylakeX", "Haswell")
