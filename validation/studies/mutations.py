@@ -359,8 +359,9 @@ MUTATIONS = (
     Mutation(
         "what leads out of fast cells has the memory of the start",
         MEMORY,
-        "            qF_[d][f] = qD;\n            mean_[d][f] += qD / fine;",
-        "            mean_[d][f] += qF_[d][f] / fine;",
+        "            memoryF_[f * n + k] = qD[k];\n"
+        "            mean_[f * n + k] += qD[k] / fine;",
+        "            mean_[f * n + k] += memoryF_[f * n + k] / fine;",
         COUPLED,
         "test_cases.py -k less_plastic",
     ),
@@ -399,10 +400,26 @@ MUTATIONS = (
     Mutation(
         "memory is carried by the receiving cell's value",
         MEMORY,
-        "const scalar qD = forward ? q[P] : qN;",
-        "const scalar qD = forward ? qN : q[P];",
+        "            qF[k] = qD[k];\n\n",
+        "            qF[k] = forward ? qN[k] : qP[k];\n\n",
         COUPLED,
         "test_physics.py -k rotation",
+    ),
+    Mutation(
+        "processors tell each other the memory of one cell only",
+        TRANSPORT,
+        "cells[coupledCells_[i] * width + k]",
+        "cells[coupledCells_[0] * width + k]",
+        COUPLED,
+        "test_transport.py -k two_ranks",
+    ),
+    Mutation(
+        "all memories of a cell are its pressure",
+        TRANSPORT,
+        "memory_[c * n_ + k] = q[c];",
+        "memory_[c * n_ + k] = all[0][c];",
+        COUPLED,
+        "test_transport.py -k piston",
     ),
     Mutation(
         "waves with exponent 6 for 5",

@@ -2,63 +2,89 @@
 // Copyright (C) 2026 the bolusFoam developers
 
 #include "historyTransport.H"
+#include "cyclicPolyPatch.H"
 #include "entryReader.H"
+#include "processorPolyPatch.H"
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
 void Foam::historyTransport::pack()
 {
-    q_.setSize(11 + (inertia_ ? 3 : 0));
-    q_[0] = state_.p.primitiveField();
-    q_[1] = state_.epsilonPEq.primitiveField();
-    q_[2] = state_.D.primitiveField();
-    q_[9] = state_.soundStrain.primitiveField();
-    q_[10] = state_.tensileStrain.primitiveField();
+    List<scalarField> all(11 + (inertia_ ? 3 : 0));
+    all[0] = state_.p.primitiveField();
+    all[1] = state_.epsilonPEq.primitiveField();
+    all[2] = state_.D.primitiveField();
     for (direction d = 0; d < 6; ++d)
     {
-        q_[3 + d] = state_.deviator.primitiveField().component(d);
+        all[3 + d] = state_.deviator.primitiveField().component(d);
     }
-    if (inertia_)
+    all[9] = state_.soundStrain.primitiveField();
+    all[10] = state_.tensileStrain.primitiveField();
+    for (direction d = 0; inertia_ && d < 3; ++d)
     {
-        for (direction d = 0; d < 3; ++d)
-        {
-            q_[11 + d] = state_.U.primitiveField().component(d);
-        }
+        all[11 + d] = state_.U.primitiveField().component(d);
     }
 
     // What is nowhere stays so; the pressure moves always. Shear out of the
     // plane of a slice is round-off (1e-13 of the stress in case D)
-    scalarField most(q_.size());
-    forAll(q_, d) most[d] = gMax(mag(q_[d]));
+    scalarField most(all.size());
+    forAll(all, d) most[d] = gMax(mag(all[d]));
     const scalar noStress = 1e-10 * max(SubList<scalar>(most, 6, 3));
     DynamicList<label> used;
-    forAll(q_, d)
+    damage_ = -1;
+    forAll(all, d)
     {
         const bool stress = d >= 3 && d < 9;
-        if (d == 0 || most[d] > (stress ? noStress : 0)) used.append(d);
-        if (stress && most[d] <= noStress) q_[d] = 0;
+        if (d != 0 && most[d] <= (stress ? noStress : 0)) continue;
+        if (d == 2) damage_ = used.size();
+        used.append(d);
     }
     used_ = used;
+
+    n_ = used_.size();
+    memory_.setSize(mesh_.nCells() * n_);
+    forAll(used_, k)
+    {
+        const scalarField& q = all[used_[k]];
+        forAll(q, c) memory_[c * n_ + k] = q[c];
+    }
+    carried_.setSize(memory_.size());
+    least_.setSize(memory_.size());
+    most_.setSize(memory_.size());
+    start_.setSize(memory_.size());
+    gradient_.setSize(3 * memory_.size());
+    for (scalarField* faces : {&memoryF_, &mean_, &second_})
+    {
+        if (faces->size() == mesh_.nFaces() * n_) continue;
+        faces->setSize(mesh_.nFaces() * n_);
+        *faces = 0;
+    }
 }
 
 
 void Foam::historyTransport::unpack()
 {
-    state_.p.primitiveFieldRef() = q_[0];
-    state_.epsilonPEq.primitiveFieldRef() = q_[1];
-    state_.D.primitiveFieldRef() = q_[2];
-    state_.soundStrain.primitiveFieldRef() = q_[9];
-    state_.tensileStrain.primitiveFieldRef() = q_[10];
+    List<scalarField> all(
+        11 + (inertia_ ? 3 : 0), scalarField(mesh_.nCells(), Zero)
+    );
+    forAll(used_, k)
+    {
+        scalarField& q = all[used_[k]];
+        forAll(q, c) q[c] = memory_[c * n_ + k];
+    }
+
+    state_.p.primitiveFieldRef() = all[0];
+    state_.epsilonPEq.primitiveFieldRef() = all[1];
+    state_.D.primitiveFieldRef() = all[2];
     for (direction d = 0; d < 6; ++d)
     {
-        state_.deviator.primitiveFieldRef().replace(d, q_[3 + d]);
+        state_.deviator.primitiveFieldRef().replace(d, all[3 + d]);
     }
-    if (inertia_)
+    state_.soundStrain.primitiveFieldRef() = all[9];
+    state_.tensileStrain.primitiveFieldRef() = all[10];
+    for (direction d = 0; inertia_ && d < 3; ++d)
     {
-        for (direction d = 0; d < 3; ++d)
-        {
-            state_.U.primitiveFieldRef().replace(d, q_[11 + d]);
-        }
+        state_.U.primitiveFieldRef().replace(d, all[11 + d]);
     }
     state_.p.correctBoundaryConditions();
     state_.epsilonPEq.correctBoundaryConditions();
@@ -66,6 +92,104 @@ void Foam::historyTransport::unpack()
     state_.soundStrain.correctBoundaryConditions();
     state_.tensileStrain.correctBoundaryConditions();
     state_.deviator.correctBoundaryConditions();
+}
+
+
+Foam::scalarField Foam::historyTransport::neighbour(
+    const scalarField& cells
+) const
+{
+    if (!parts_) return scalarField();
+    scalarField beyond(mesh_.nFaces() - mesh_.nInternalFaces());
+    forAll(coupledFaces_, i)
+    {
+        beyond[coupledFaces_[i]] = cells[coupledCells_[i]];
+    }
+    syncTools::swapBoundaryFaceList(mesh_, beyond);
+    return beyond;
+}
+
+
+Foam::scalarField Foam::historyTransport::pressureBeyond(const zone& z) const
+{
+    if (!z.shared) return scalarField();
+    scalarField beyond(mesh_.nFaces() - mesh_.nInternalFaces());
+    forAll(coupledFaces_, i) beyond[coupledFaces_[i]] = p(coupledCells_[i]);
+    syncTools::swapBoundaryFaceList(mesh_, beyond);
+    return beyond;
+}
+
+
+void Foam::historyTransport::exchange(
+    const zone& z,
+    const scalarField& cells,
+    const label width,
+    scalarField& beyond
+) const
+{
+    if (!z.shared) return;
+    sent_.setSize(coupledCells_.size() * width);
+    beyond.setSize(sent_.size());
+    forAll(coupledCells_, i)
+    {
+        for (label k = 0; k < width; ++k)
+        {
+            sent_[i * width + k] = cells[coupledCells_[i] * width + k];
+        }
+    }
+
+    // One message to each neighbour; syncTools would take a list of all
+    // boundary faces for each of the values
+    const label nInternal = mesh_.nInternalFaces();
+    const label before = Pstream::nRequests();
+    for (const bool receives : {true, false})
+    {
+        for (const polyPatch& patch : mesh_.boundaryMesh())
+        {
+            if (!isA<processorPolyPatch>(patch) || patch.empty()) continue;
+            const auto& to = refCast<const processorPolyPatch>(patch);
+            const label at = width * coupledPlace_[patch.start() - nInternal];
+            const std::streamsize size = width * patch.size() * sizeof(scalar);
+            if (receives)
+            {
+                UIPstream::read(
+                    Pstream::commsTypes::nonBlocking,
+                    to.neighbProcNo(),
+                    reinterpret_cast<char*>(&beyond[at]),
+                    size,
+                    to.tag(),
+                    to.comm()
+                );
+            }
+            else
+            {
+                UOPstream::write(
+                    Pstream::commsTypes::nonBlocking,
+                    to.neighbProcNo(),
+                    reinterpret_cast<const char*>(&sent_[at]),
+                    size,
+                    to.tag(),
+                    to.comm()
+                );
+            }
+        }
+    }
+    for (const polyPatch& patch : mesh_.boundaryMesh())
+    {
+        if (!isA<cyclicPolyPatch>(patch)) continue;
+        const polyPatch& other =
+            refCast<const cyclicPolyPatch>(patch).neighbPatch();
+        for (label i = 0; i < patch.size(); ++i)
+        {
+            const label to = coupledPlace_[patch.start() + i - nInternal];
+            const label from = coupledPlace_[other.start() + i - nInternal];
+            for (label k = 0; k < width; ++k)
+            {
+                beyond[to * width + k] = sent_[from * width + k];
+            }
+        }
+    }
+    Pstream::waitRequests(before);
 }
 
 
@@ -137,19 +261,15 @@ Foam::historyTransport::historyTransport(
             &Rm_,
             &massOld_,
             &massNew_,
-            &carried_,
             &stays_,
             &calm_,
-            &least_,
-            &most_}
+            &given_}
     )
     {
         cells->setSize(nCells, Zero);
     }
-    g_.setSize(nCells, Zero);
     for (
-        scalarField* faces :
-        {&flux_, &swept_, &low_, &anti_, &a_, &F_, &total_, &amount_, &second_}
+        scalarField* faces : {&flux_, &swept_, &low_, &anti_, &a_, &F_, &total_}
     )
     {
         faces->setSize(nFaces, Zero);
@@ -158,8 +278,6 @@ Foam::historyTransport::historyTransport(
     coupled_.setSize(nFaces, false);
     full_.setSize(nFaces, false);
     heun_.setSize(nFaces, false);
-    qF_.setSize(11 + (inertia_ ? 3 : 0), scalarField(nFaces, Zero));
-    mean_ = qF_;
 
     for (const fvPatch& patch : mesh_.boundary())
     {
@@ -167,9 +285,11 @@ Foam::historyTransport::historyTransport(
         forAll(patch, i) coupled_[patch.start() + i] = true;
     }
     DynamicList<label> faces, cells;
+    coupledPlace_.setSize(nFaces - mesh_.nInternalFaces(), -1);
     for (label f = mesh_.nInternalFaces(); f < nFaces; ++f)
     {
         if (!coupled_[f]) continue;
+        coupledPlace_[f - mesh_.nInternalFaces()] = faces.size();
         faces.append(f - mesh_.nInternalFaces());
         cells.append(mesh_.faceOwner()[f]);
     }
@@ -244,7 +364,7 @@ Foam::historyTransport::report Foam::historyTransport::advance(
     const scalarField& m = state_.mass.primitiveField();
 
     // The solution has changed the pressure, and with it the volume
-    forAll(alpha, c) alpha[c] = m[c] * std::exp(-q_[0][c] / K_);
+    forAll(alpha, c) alpha[c] = m[c] * std::exp(-p(c) / K_);
 
     const labelPair steps = divide(Co, max(label(needed), 1));
     const label coarse = steps.first();

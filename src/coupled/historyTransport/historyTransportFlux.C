@@ -35,9 +35,12 @@ void Foam::historyTransport::setSwept(
 
         const vector e =
             (forward ? 1 : -1) / max(mag(delta_[f]), VSMALL) * delta_[f];
-        const vector tangential = g_[D] - (g_[D] & e) * e;
+        const vector g(
+            gradient_[3 * D], gradient_[3 * D + 1], gradient_[3 * D + 2]
+        );
+        const vector tangential = g - (g & e) * e;
         const scalar steep = mag(tangential);
-        const scalar along = (g_[D] & e) * extent(D, e);
+        const scalar along = (g & e) * extent(D, e);
         const scalar across =
             steep > VSMALL ? steep * extent(D, tangential / steep) : 0;
         swept_[f] = planarInterface::swept(
@@ -55,7 +58,9 @@ void Foam::historyTransport::setSwept(
                                     : alpha[P];
         const scalar within =
             min(max(swept_[f], min(alpha[D], aA)), max(alpha[D], aA));
-        const scalar sound = min(max(1 - q_[2][D], scalar(0)), scalar(1));
+        const scalar broken =
+            damage_ < 0 ? scalar(0) : memory_[D * n_ + damage_];
+        const scalar sound = min(max(1 - broken, scalar(0)), scalar(1));
         const scalar sharp =
             sound * min((mag(along) + across) / interfaceJump_, scalar(1));
         swept_[f] = sharp * swept_[f] + (1 - sharp) * within;
@@ -78,7 +83,7 @@ void Foam::historyTransport::upwind(const zone& z)
     const label nInternal = mesh_.nInternalFaces();
     const scalarField& alpha = state_.alpha.primitiveField();
     const scalarField alphaNei(neighbour(z, alpha));
-    const scalarField pNei(neighbour(z, q_[0]));
+    const scalarField pNei(pressureBeyond(z));
     for (const label f : z.faces)
     {
         const label D = flux_[f] > 0 ? mesh_.faceOwner()[f]
@@ -89,7 +94,7 @@ void Foam::historyTransport::upwind(const zone& z)
         const bool bolus = D >= 0 || coupled_[f];
         a_[f] =
             bolus ? flux_[f] * (D >= 0 ? alpha[D] : alphaNei[b]) : scalar(0);
-        F_[f] = bolus ? a_[f] * std::exp((D >= 0 ? q_[0][D] : pNei[b]) / K_)
+        F_[f] = bolus ? a_[f] * std::exp((D >= 0 ? p(D) : pNei[b]) / K_)
                       : scalar(0);
     }
 }
@@ -107,7 +112,7 @@ void Foam::historyTransport::takeWhatIsThere(
     const scalarField& alpha = state_.alpha.primitiveField();
 
     // Out over given faces until the end, and over others now, of the volume
-    scalarField& given = carried_;
+    scalarField& given = given_;
     scalarField& now = stays_;
     scalarField& part = calm_;
     for (const label c : z.cells) given[c] = now[c] = 0;
@@ -124,7 +129,7 @@ void Foam::historyTransport::takeWhatIsThere(
     for (const label c : z.cells)
     {
         const scalar rest =
-            max(alpha[c] * Vold_[c] - given[c] * std::exp(-q_[0][c] / K_),
+            max(alpha[c] * Vold_[c] - given[c] * std::exp(-p(c) / K_),
                 scalar(0));
         part[c] = now[c] > rest ? rest / now[c] : scalar(1);
     }
@@ -156,7 +161,7 @@ void Foam::historyTransport::setBolusFlux(
 
     setVolumes(z, sub, n);
     const scalarField alphaNei(neighbour(z, alpha));
-    const scalarField pNei(neighbour(z, q_[0]));
+    const scalarField pNei(pressureBeyond(z));
     // Bolus beyond the face: through an open boundary void comes in
     auto beyond = [&](const label f)
     {
@@ -167,7 +172,7 @@ void Foam::historyTransport::setBolusFlux(
 
     for (const label f : z.faces) full_[f] = true;
     for (const label f : z.given) full_[f] = true;
-    gradient(z, alpha, alphaNei, g_);
+    gradient(z, alpha, 1, [&](const label b) { return &alphaNei[b]; });
     setSwept(z, alphaNei, dt);
 
     // Bolus over the faces, by upwinding and beyond it
@@ -207,7 +212,7 @@ void Foam::historyTransport::setBolusFlux(
     auto take = [&](const label c, const scalar F)
     {
         // Volume of bolus at the cell's compression of now
-        const scalar part = F * std::exp(-q_[0][c] / K_) * dt / V_[c];
+        const scalar part = F * std::exp(-p(c) / K_) * dt / V_[c];
         alphaLow_[c] -= part;
         alphaLeft_[c] -= max(part, scalar(0)) * left;
         later_[c] -= part * (left - 1);
@@ -248,9 +253,7 @@ void Foam::historyTransport::setBolusFlux(
             F_[f] = 0;
             continue;
         }
-        const scalar pD = flux_[f] > 0 ? q_[0][P]
-            : internal                 ? q_[0][nei[f]]
-                                       : pNei[b];
+        const scalar pD = flux_[f] > 0 ? p(P) : internal ? p(nei[f]) : pNei[b];
         F_[f] = a_[f] * std::exp(pD / K_);
         total_[f] += F_[f] / n;
     }
@@ -299,11 +302,11 @@ void Foam::historyTransport::move(const zone& z, const label sub, const label n)
     // Those of z may be others by now
     setVolumes(z, sub, n);
     setMasses(z, dt);
-    for (const label d : used_) moveMemory(z, dt, q_[d], qF_[d]);
+    moveMemory(z, dt, memoryF_);
     for (const label c : z.moved)
     {
         m[c] = massNew_[c] / V_[c];
-        alpha[c] = m[c] * std::exp(-q_[0][c] / K_);
+        alpha[c] = m[c] * std::exp(-p(c) / K_);
     }
 }
 

@@ -2,49 +2,10 @@
 // Copyright (C) 2026 the bolusFoam developers
 
 #include "historyTransport.H"
-#include "leastSquaresVectors.H"
 
 // The memory of the bolus on its way through the mesh: see historyTransport.H
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
-
-void Foam::historyTransport::gradient(
-    const zone& z,
-    const scalarField& q,
-    const scalarField& qNei,
-    vectorField& g
-) const
-{
-    const leastSquaresVectors& ls = leastSquaresVectors::New(mesh_);
-    const vectorField& pVec = ls.pVectors().primitiveField();
-    const vectorField& nVec = ls.nVectors().primitiveField();
-    const label nInternal = mesh_.nInternalFaces();
-    const labelList& own = mesh_.faceOwner();
-    const labelList& nei = mesh_.faceNeighbour();
-
-    for (const label c : z.cells) g[c] = vector(Zero);
-    auto add = [&](const label f)
-    {
-        if (!full_[f]) return;
-        const label P = own[f];
-        if (f < nInternal)
-        {
-            const scalar d = q[nei[f]] - q[P];
-            g[P] += d * pVec[f];
-            g[nei[f]] -= d * nVec[f];
-        }
-        else if (coupled_[f])
-        {
-            const label b = f - nInternal;
-            const label i = f - mesh_.boundary()[patch_[b]].start();
-            g[P] +=
-                (qNei[b] - q[P]) * ls.pVectors().boundaryField()[patch_[b]][i];
-        }
-    };
-    for (const label f : z.faces) add(f);
-    for (const label f : z.given) add(f);
-}
-
 
 void Foam::historyTransport::balance(
     const zone& z,
@@ -66,81 +27,122 @@ void Foam::historyTransport::balance(
 }
 
 
-void Foam::historyTransport::faceValues(
-    const zone& z,
-    const scalarField& q,
-    scalarField& qF
-)
+void Foam::historyTransport::faceValues(const zone& z, scalarField& faces)
 {
+    const label n = n_;
     const label nInternal = mesh_.nInternalFaces();
     const labelList& own = mesh_.faceOwner();
     const labelList& nei = mesh_.faceNeighbour();
-    const scalarField qNei(neighbour(z, q));
 
-    gradient(z, q, qNei, g_);
-    const vectorField gNei(neighbour(z, g_));
+    // Of a cell, or beyond a boundary face
+    auto of = [n](const scalarField& cells, const label c)
+    { return &cells[c * n]; };
+    auto beyond = [&](const scalarField& values, const label b)
+    { return &values[coupledPlace_[b] * n]; };
+
+    exchange(z, memory_, n, memoryNei_);
+    gradient(
+        z, memory_, n, [&](const label b) { return beyond(memoryNei_, b); }
+    );
+    exchange(z, gradient_, 3 * n, gradientNei_);
 
     // The slope may not count on values that no neighbour has
-    for (const label c : z.cells) least_[c] = most_[c] = q[c];
+    for (const label c : z.cells)
+    {
+        for (label i = c * n; i < (c + 1) * n; ++i)
+        {
+            least_[i] = most_[i] = memory_[i];
+        }
+    }
     auto see = [&](const label f)
     {
         if (!full_[f]) return;
-        const label P = own[f];
         const bool internal = f < nInternal;
-        const scalar qN = internal ? q[nei[f]] : qNei[f - nInternal];
-        least_[P] = min(least_[P], qN);
-        most_[P] = max(most_[P], qN);
-        if (internal)
+        const scalar* qP = of(memory_, own[f]);
+        const scalar* qN =
+            internal ? of(memory_, nei[f]) : beyond(memoryNei_, f - nInternal);
+        scalar* least = &least_[own[f] * n];
+        scalar* most = &most_[own[f] * n];
+        for (label k = 0; k < n; ++k)
         {
-            const label N = nei[f];
-            least_[N] = min(least_[N], q[P]);
-            most_[N] = max(most_[N], q[P]);
+            least[k] = min(least[k], qN[k]);
+            most[k] = max(most[k], qN[k]);
+        }
+        if (!internal) return;
+        least = &least_[nei[f] * n];
+        most = &most_[nei[f] * n];
+        for (label k = 0; k < n; ++k)
+        {
+            least[k] = min(least[k], qP[k]);
+            most[k] = max(most[k], qP[k]);
         }
     };
     for (const label f : z.faces) see(f);
     for (const label f : z.given) see(f);
-    const scalarField leastNei(neighbour(z, least_));
-    const scalarField mostNei(neighbour(z, most_));
-    const scalarField staysNei(neighbour(z, stays_));
-
-    // What an open boundary lets in has no memory
-    auto at = [&](const scalarField& cells, const scalarField& beyond, label f)
-    {
-        return f < nInternal ? cells[nei[f]]
-            : coupled_[f]    ? beyond[f - nInternal]
-                             : scalar(0);
-    };
+    exchange(z, least_, n, leastNei_);
+    exchange(z, most_, n, mostNei_);
 
     for (const label f : z.faces)
     {
         const label P = own[f];
+        const bool internal = f < nInternal;
+        const label b = f - nInternal;
         const bool forward = F_[f] > 0;
-        const scalar qN = at(q, qNei, f);
-        const scalar qD = forward ? q[P] : qN;
-        qF[f] = qD;
-        if (F_[f] == 0 || !full_[f]) continue;
+        scalar* qF = &faces[f * n];
 
-        const vector& gD = forward ? g_[P]
-            : f < nInternal        ? g_[nei[f]]
-                                   : gNei[f - nInternal];
+        // What an open boundary lets in has no memory
+        if (!forward && !internal && !coupled_[f])
+        {
+            for (label k = 0; k < n; ++k) qF[k] = 0;
+            continue;
+        }
+        const scalar* qP = of(memory_, P);
+        const scalar* qN = internal ? of(memory_, nei[f])
+            : coupled_[f]           ? beyond(memoryNei_, b)
+                                    : nullptr;
+        const scalar* qD = forward ? qP : qN;
+        if (F_[f] == 0 || !full_[f])
+        {
+            for (label k = 0; k < n; ++k) qF[k] = qD[k];
+            continue;
+        }
 
-        // Differences on the downwind side and, from the gradient, upwind
+        // Of the donor
+        auto donor = [&](const scalarField& cells,
+                         const scalarField& others,
+                         const label width)
+        {
+            return forward ? &cells[P * width]
+                : internal ? &cells[nei[f] * width]
+                           : &others[coupledPlace_[b] * width];
+        };
+        const scalar* gD = donor(gradient_, gradientNei_, 3 * n);
+        const scalar* least = donor(least_, leastNei_, n);
+        const scalar* most = donor(most_, mostNei_, n);
+        const scalar rest = *donor(stays_, staysNei_, 1);
+        const scalar part = min(rest / max(1 - rest, SMALL), scalar(1));
+        const vector& d = delta_[f];
         const scalar sign = forward ? 1 : -1;
-        const scalar down = sign * (qN - q[P]);
-        const scalar up = 2 * sign * (gD & delta_[f]) - down;
-        if (up * down <= 0) continue;
 
-        // What leaves with more than the cell's value, leaves the rest with
-        // less: no less than a neighbour has
-        const scalar room = down > 0
-            ? qD - (forward ? least_[P] : at(least_, leastNei, f))
-            : (forward ? most_[P] : at(most_, mostNei, f)) - qD;
-        const scalar rest = forward ? stays_[P] : at(stays_, staysNei, f);
-        const scalar bound = room * min(rest / max(1 - rest, SMALL), scalar(1));
-        const scalar slope =
-            min(min(mag(up + 2 * down) / 3, 2 * mag(up)),
-                2 * min(mag(down), bound));
-        qF[f] += 0.5 * (down > 0 ? slope : -slope);
+        for (label k = 0; k < n; ++k)
+        {
+            qF[k] = qD[k];
+
+            // Differences on the downwind side and, from the gradient, upwind
+            const scalar along =
+                gD[k] * d.x() + gD[n + k] * d.y() + gD[2 * n + k] * d.z();
+            const scalar down = sign * (qN[k] - qP[k]);
+            const scalar up = 2 * sign * along - down;
+            if (up * down <= 0) continue;
+
+            // What leaves with more than the cell's value, leaves the rest
+            // with less: no less than a neighbour has
+            const scalar room = down > 0 ? qD[k] - least[k] : most[k] - qD[k];
+            const scalar slope =
+                min(min(mag(up + 2 * down) / 3, 2 * mag(up)),
+                    2 * min(mag(down), room * part));
+            qF[k] += 0.5 * (down > 0 ? slope : -slope);
+        }
     }
 }
 
@@ -148,18 +150,41 @@ void Foam::historyTransport::faceValues(
 void Foam::historyTransport::moveMemory(
     const zone& z,
     const scalar dt,
-    scalarField& q,
-    const scalarField& qF
+    const scalarField& faces
 )
 {
+    const label n = n_;
+    const label nInternal = mesh_.nInternalFaces();
+    const labelList& own = mesh_.faceOwner();
+    const labelList& nei = mesh_.faceNeighbour();
     const scalarField& V = mesh_.V();
-    for (const label c : z.cells) carried_[c] = massOld_[c] * q[c];
-    for (const label f : z.faces) amount_[f] = F_[f] * qF[f];
-    for (const label f : z.given) amount_[f] = F_[f] * qF[f];
-    balance(z, dt, amount_, carried_);
+
+    for (const label c : z.cells)
+    {
+        for (label i = c * n; i < (c + 1) * n; ++i)
+        {
+            carried_[i] = massOld_[c] * memory_[i];
+        }
+    }
+    auto carry = [&](const label f)
+    {
+        const scalar F = F_[f];
+        const scalar* qF = &faces[f * n];
+        scalar* from = &carried_[own[f] * n];
+        for (label k = 0; k < n; ++k) from[k] -= F * qF[k] * dt;
+        if (f >= nInternal) return;
+        scalar* to = &carried_[nei[f] * n];
+        for (label k = 0; k < n; ++k) to[k] += F * qF[k] * dt;
+    };
+    for (const label f : z.faces) carry(f);
+    for (const label f : z.given) carry(f);
     for (const label c : z.moved)
     {
-        q[c] = massNew_[c] > 1e-12 * V[c] ? carried_[c] / massNew_[c] : 0;
+        const bool empty = massNew_[c] <= 1e-12 * V[c];
+        for (label i = c * n; i < (c + 1) * n; ++i)
+        {
+            memory_[i] = empty ? 0 : carried_[i] / massNew_[c];
+        }
     }
 }
 
@@ -203,18 +228,27 @@ void Foam::historyTransport::setMemoryFlux(const zone& z, const scalar dt)
                    f < nInternal ? calm_[nei[f]] : calmNei[f - nInternal])
                 > 0.5;
     }
-    for (const label d : used_)
+    exchange(z, stays_, 1, staysNei_);
+
+    const label n = n_;
+    faceValues(z, memoryF_);
+    auto copy = [&](const scalarField& from, scalarField& to)
     {
-        scalarField& q = q_[d];
-        scalarField& qF = qF_[d];
-        faceValues(z, q, qF);
-        const scalarField before(q, z.moved);
-        moveMemory(z, dt, q, qF);
-        faceValues(z, q, second_);
-        UIndirectList<scalar>(q, z.moved) = before;
-        for (const label f : z.faces)
+        for (const label c : z.moved)
         {
-            if (heun_[f]) qF[f] = 0.5 * (qF[f] + second_[f]);
+            for (label i = c * n; i < (c + 1) * n; ++i) to[i] = from[i];
+        }
+    };
+    copy(memory_, start_);
+    moveMemory(z, dt, memoryF_);
+    faceValues(z, second_);
+    copy(start_, memory_);
+    for (const label f : z.faces)
+    {
+        if (!heun_[f]) continue;
+        for (label i = f * n; i < (f + 1) * n; ++i)
+        {
+            memoryF_[i] = 0.5 * (memoryF_[i] + second_[i]);
         }
     }
 }
@@ -222,19 +256,19 @@ void Foam::historyTransport::setMemoryFlux(const zone& z, const scalar dt)
 
 void Foam::historyTransport::follow(const zone& z, const label fine)
 {
+    const label n = n_;
     const label nInternal = mesh_.nInternalFaces();
-    for (const label d : used_)
+    exchange(z, memory_, n, memoryNei_);
+    for (const label f : z.led)
     {
-        const scalarField& q = q_[d];
-        const scalarField qNei(neighbour(z, q));
-        for (const label f : z.led)
+        const bool forward = flux_[f] > 0;
+        const scalar* qD = forward ? &memory_[mesh_.faceOwner()[f] * n]
+            : f < nInternal ? &memory_[mesh_.faceNeighbour()[f] * n]
+                            : &memoryNei_[coupledPlace_[f - nInternal] * n];
+        for (label k = 0; k < n; ++k)
         {
-            const bool forward = flux_[f] > 0;
-            const scalar qD = forward ? q[mesh_.faceOwner()[f]]
-                : f < nInternal       ? q[mesh_.faceNeighbour()[f]]
-                                      : qNei[f - nInternal];
-            qF_[d][f] = qD;
-            mean_[d][f] += qD / fine;
+            memoryF_[f * n + k] = qD[k];
+            mean_[f * n + k] += qD[k] / fine;
         }
     }
 }
@@ -242,12 +276,12 @@ void Foam::historyTransport::follow(const zone& z, const label fine)
 
 void Foam::historyTransport::setMean(const zone& z)
 {
-    for (const label d : used_)
+    for (const label f : z.led)
     {
-        for (const label f : z.led)
+        for (label i = f * n_; i < (f + 1) * n_; ++i)
         {
-            qF_[d][f] = mean_[d][f];
-            mean_[d][f] = 0;
+            memoryF_[i] = mean_[i];
+            mean_[i] = 0;
         }
     }
 }

@@ -91,7 +91,7 @@ Foam::scalar Foam::historyTransport::spill()
 
         // Mass over the faces, with the density of where it comes from
         scalarField rho(V.size());
-        forAll(rho, c) rho[c] = std::exp(q_[0][c] / K_);
+        forAll(rho, c) rho[c] = std::exp(p(c) / K_);
         const scalarField rhoNei(neighbour(rho));
         scalarField F(own.size(), Zero);
         forAll(own, f)
@@ -125,8 +125,10 @@ Foam::scalar Foam::historyTransport::spill()
             mNew[own[f]] -= F[f];
             if (f < nInternal) mNew[mesh_.faceNeighbour()[f]] += F[f];
         }
-        for (scalarField& q : q_)
+        for (label k = 0; k < n_; ++k)
         {
+            scalarField q(V.size());
+            forAll(q, c) q[c] = memory_[c * n_ + k];
             const scalarField qNei(neighbour(q));
             scalarField mq(m * V * q);
             forAll(F, f)
@@ -140,10 +142,14 @@ Foam::scalar Foam::historyTransport::spill()
                 mq[own[f]] -= F[f] * qF;
                 if (internal) mq[N] += F[f] * qF;
             }
-            forAll(q, c) q[c] = mNew[c] > 1e-12 * V[c] ? mq[c] / mNew[c] : 0;
+            forAll(q, c)
+            {
+                memory_[c * n_ + k] =
+                    mNew[c] > 1e-12 * V[c] ? mq[c] / mNew[c] : 0;
+            }
         }
         m = mNew / V;
-        forAll(alpha, c) alpha[c] = m[c] * std::exp(-q_[0][c] / K_);
+        forAll(alpha, c) alpha[c] = m[c] * std::exp(-p(c) / K_);
     }
 
     return returnReduce(spilled, sumOp<scalar>());
