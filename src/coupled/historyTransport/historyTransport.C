@@ -2,7 +2,6 @@
 // Copyright (C) 2026 the bolusFoam developers
 
 #include "historyTransport.H"
-#include "cyclicPolyPatch.H"
 #include "entryReader.H"
 #include "processorPolyPatch.H"
 
@@ -96,25 +95,16 @@ void Foam::historyTransport::unpack()
 
 
 Foam::scalarField Foam::historyTransport::neighbour(
-    const scalarField& cells
+    const scalarField& cells,
+    const label width
 ) const
 {
     if (!parts_) return scalarField();
     scalarField beyond(mesh_.nFaces() - mesh_.nInternalFaces());
     forAll(coupledFaces_, i)
     {
-        beyond[coupledFaces_[i]] = cells[coupledCells_[i]];
+        beyond[coupledFaces_[i]] = cells[coupledCells_[i] * width];
     }
-    syncTools::swapBoundaryFaceList(mesh_, beyond);
-    return beyond;
-}
-
-
-Foam::scalarField Foam::historyTransport::pressureBeyond(const zone& z) const
-{
-    if (!z.shared) return scalarField();
-    scalarField beyond(mesh_.nFaces() - mesh_.nInternalFaces());
-    forAll(coupledFaces_, i) beyond[coupledFaces_[i]] = p(coupledCells_[i]);
     syncTools::swapBoundaryFaceList(mesh_, beyond);
     return beyond;
 }
@@ -139,55 +129,32 @@ void Foam::historyTransport::exchange(
     }
 
     // One message to each neighbour; syncTools would take a list of all
-    // boundary faces for each of the values
-    const label nInternal = mesh_.nInternalFaces();
+    // boundary faces for each of the values. Coupled patches of other types
+    // are refused (coupledSystem)
     const label before = Pstream::nRequests();
-    for (const bool receives : {true, false})
-    {
-        for (const polyPatch& patch : mesh_.boundaryMesh())
-        {
-            if (!isA<processorPolyPatch>(patch) || patch.empty()) continue;
-            const auto& to = refCast<const processorPolyPatch>(patch);
-            const label at = width * coupledPlace_[patch.start() - nInternal];
-            const std::streamsize size = width * patch.size() * sizeof(scalar);
-            if (receives)
-            {
-                UIPstream::read(
-                    Pstream::commsTypes::nonBlocking,
-                    to.neighbProcNo(),
-                    reinterpret_cast<char*>(&beyond[at]),
-                    size,
-                    to.tag(),
-                    to.comm()
-                );
-            }
-            else
-            {
-                UOPstream::write(
-                    Pstream::commsTypes::nonBlocking,
-                    to.neighbProcNo(),
-                    reinterpret_cast<const char*>(&sent_[at]),
-                    size,
-                    to.tag(),
-                    to.comm()
-                );
-            }
-        }
-    }
     for (const polyPatch& patch : mesh_.boundaryMesh())
     {
-        if (!isA<cyclicPolyPatch>(patch)) continue;
-        const polyPatch& other =
-            refCast<const cyclicPolyPatch>(patch).neighbPatch();
-        for (label i = 0; i < patch.size(); ++i)
-        {
-            const label to = coupledPlace_[patch.start() + i - nInternal];
-            const label from = coupledPlace_[other.start() + i - nInternal];
-            for (label k = 0; k < width; ++k)
-            {
-                beyond[to * width + k] = sent_[from * width + k];
-            }
-        }
+        if (!isA<processorPolyPatch>(patch) || patch.empty()) continue;
+        const auto& to = refCast<const processorPolyPatch>(patch);
+        const label at =
+            width * coupledPlace_[patch.start() - mesh_.nInternalFaces()];
+        const std::streamsize size = width * patch.size() * sizeof(scalar);
+        UIPstream::read(
+            Pstream::commsTypes::nonBlocking,
+            to.neighbProcNo(),
+            reinterpret_cast<char*>(&beyond[at]),
+            size,
+            to.tag(),
+            to.comm()
+        );
+        UOPstream::write(
+            Pstream::commsTypes::nonBlocking,
+            to.neighbProcNo(),
+            reinterpret_cast<const char*>(&sent_[at]),
+            size,
+            to.tag(),
+            to.comm()
+        );
     }
     Pstream::waitRequests(before);
 }

@@ -83,7 +83,7 @@ void Foam::historyTransport::upwind(const zone& z)
     const label nInternal = mesh_.nInternalFaces();
     const scalarField& alpha = state_.alpha.primitiveField();
     const scalarField alphaNei(neighbour(z, alpha));
-    const scalarField pNei(pressureBeyond(z));
+    const scalarField pNei(neighbour(z, memory_, n_));
     for (const label f : z.faces)
     {
         const label D = flux_[f] > 0 ? mesh_.faceOwner()[f]
@@ -161,7 +161,7 @@ void Foam::historyTransport::setBolusFlux(
 
     setVolumes(z, sub, n);
     const scalarField alphaNei(neighbour(z, alpha));
-    const scalarField pNei(pressureBeyond(z));
+    const scalarField pNei(neighbour(z, memory_, n_));
     // Bolus beyond the face: through an open boundary void comes in
     auto beyond = [&](const label f)
     {
