@@ -27,7 +27,7 @@ from bolus_validation.profiling import PHASES, phases  # noqa: E402
 from bolus_validation.results import read_table, run_numbers  # noqa: E402
 from bolus_validation.specimens import compression  # noqa: E402
 from bolus_validation.studies import (  # noqa: E402
-    HARDENING_ENDS,
+    NO_END,
     Findings,
     gastric_settings,
     holds,
@@ -174,7 +174,7 @@ for _case in "ABCD":
     for _size in LONGEST:
         register_whole(_case, _size)
 for _size in LONGEST_D:
-    register_whole("D", _size, **HARDENING_ENDS)
+    register_whole("D", _size, **NO_END)
 
 
 @study(

@@ -234,11 +234,11 @@ def run_folder(tutorial: str, page: str, ranks: int = 1, **settings) -> Path:
     return folder / f"{Path(tutorial).name}-{key.hexdigest()[:16]}"
 
 
-# -set entries of case D with an end of its hardening
-HARDENING_ENDS = {
-    "law": "JLawLimited",
-    "lagTurningBelow": 1,
-    "lagFrictionBelow": 1e-3,
+# -set entries of case D without an end of its hardening
+NO_END = {
+    "law": "JLaw",
+    "lagTurningBelow": 0,
+    "lagFrictionBelow": 1,
 }
 
 

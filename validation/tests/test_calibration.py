@@ -346,3 +346,17 @@ def test_each_material_gives_what_its_source_prints(tmp_path, path):
         assert done.returncode == 0, done.stderr
         stress = theory.read_table(tmp_path / "point.dat")["a"]["sigmaEq"][-1]
         assert abs(stress - printed) < tolerance
+
+
+def test_the_end_of_the_j_law_is_youngs_modulus(tmp_path):
+    # What JLawLimited and case D say of it; without the end it has 194 kPa
+    path = ROOT / "tutorials" / "common" / "bolusProperties.JLawLimited"
+    done = theory.run_material_point(
+        f'bolusProperties {{ #include "{path}" }}\n'
+        "maxStrainIncrement 1e-3;\n"
+        "segments { a { mode uniaxial; rate 0.1; strain -6; } }",
+        tmp_path,
+    )
+    assert done.returncode == 0, done.stderr
+    stress = theory.read_table(tmp_path / "point.dat")["a"]["sigmaEq"]
+    assert stress[-1] == pytest.approx(100e3, rel=0.01)
