@@ -43,24 +43,24 @@ def number(cases):
 
 
 def test_the_harder_bolus_takes_more_work_and_friction_costs_some(number):
-    # Found 1.07, 0.60, 0.56, 0.32, 0.30 J
+    # Found 1.31, 1.20, 0.56, 0.32, 0.30 J
     work = [number(name, "work") for name in (UNENDED, *"DCAB")]
     assert work == sorted(work, reverse=True)
-    assert work[0] > 1.5 * work[2] > 2 * work[3]
-    assert work[1] > 1.03 * work[2]
+    assert work[0] > 1.03 * work[1]
+    assert work[1] > 1.5 * work[2]
+    assert work[2] > 1.3 * work[3]
     assert work[3] > 1.03 * work[4]
 
 
 def test_peak_forces_keep_their_order(number):
-    # Found 252, 199, 77, 74 N: A and B are too near each other to tell. D whose
-    # hardening ends has 135; it is above C from 1 mm on
+    # Found 263, 199, 77, 74 N: A and B are too near each other to tell
     force = [number(letter, "peak force") for letter in "DCAB"]
     assert force[0] > 1.1 * force[1] > 2 * force[2]
     assert force[1] > 2 * force[3]
 
 
 def test_case_b_empties_most_and_case_a_least(number):
-    # Found 0.77, 0.73, 0.70, 0.66
+    # Found 0.77, 0.74, 0.70, 0.66
     retained = [number(letter, "retained mass") for letter in "ADCB"]
     assert retained == sorted(retained, reverse=True)
     assert retained[0] > retained[-1] + 0.05
