@@ -132,6 +132,22 @@ MUTATIONS = (
         "test_solver.py -k stress_turns",
     ),
     Mutation(
+        "rows of stress that turns later never doubled",
+        "src/coupled/coupledSystem/coupledSystemSolve.C",
+        "min(max(2 * turnLaterRow_, leastLagTurningSteps_),",
+        "min(max(turnLaterRow_, leastLagTurningSteps_),",
+        COUPLED,
+        "test_solver_contact.py -k more_steps_turn",
+    ),
+    Mutation(
+        "rows of stress that turns later as long as the last",
+        "src/coupled/coupledSystem/coupledSystem.C",
+        "turnLaterRow_ = 0;",
+        "turnLaterRow_ = max(turnLaterRow_, 0);",
+        COUPLED,
+        "test_solver_contact.py -k more_steps_turn",
+    ),
+    Mutation(
         "lagged friction with twice the pressure",
         CELL,
         "k.pn = lagged_ ? state_.p[c] -",

@@ -169,22 +169,41 @@ def test_lagged_friction_is_told_and_has_the_pressure_of_the_start(folder):
     assert upper["axial"] == pytest.approx(-lower["axial"], abs=1e-5)
 
 
+def rows_turned_later(case) -> list[int]:
+    """Steps in each row of such steps, but one that the run's end cuts."""
+    steps = read_table(case, "solver", "steps")
+    turned = np.diff(steps["turnedLater"], prepend=0) > 0
+    assert 10 <= turned.sum() < turned.size
+    begins = np.flatnonzero(np.diff(turned.astype(int), prepend=0) == 1)
+    ends = np.flatnonzero(np.diff(turned.astype(int)) == -1)
+    return [end + 1 - begin for begin, end in zip(begins, ends, strict=False)]
+
+
 def test_a_step_that_fails_and_nine_more_turn_the_stress_later(folder):
     # So few iterations that Newton's method fails now and then
     case = folder / "turned-later"
     lower, upper = sliding(
         case, 0.3, "upper", "maxIterations 4; lagTurningBelow 1;"
     )
-    steps = read_table(case, "solver", "steps")
-    turned = np.diff(steps["turnedLater"], prepend=0) > 0
-    assert 10 <= turned.sum() < turned.size
-    # All rows of such steps but one that the run's end cuts are of ten, or of
-    # several tens where the next step fails too
-    begins = np.flatnonzero(np.diff(turned.astype(int), prepend=0) == 1)
-    ends = np.flatnonzero(np.diff(turned.astype(int)) == -1)
-    rows = [end + 1 - begin for begin, end in zip(begins, ends, strict=False)]
-    assert all(row % 10 == 0 for row in rows)
+    # Several tens where the next step fails too
+    assert all(row % 10 == 0 for row in rows_turned_later(case))
     assert upper["axial"] == pytest.approx(-lower["axial"], abs=1e-5)
+
+
+def test_more_steps_turn_the_stress_later_where_one_fails_again(folder):
+    # Rows of 10, of 20 more where the step after them fails as well, and so on;
+    # found 13 of 10 and one of 30 (without: 11 of 10, 3 of 20)
+    case = folder / "turned-later-doubled"
+    sliding(
+        case,
+        0.3,
+        "upper",
+        "maxIterations 3; lagTurningBelow 1; lagTurningSteps 20;",
+    )
+    rows = rows_turned_later(case)
+    assert all(row % 20 == 10 for row in rows)
+    assert rows.count(10) > 1
+    assert max(rows) > 10
 
 
 def test_friction_is_not_lagged_in_longer_steps(folder):

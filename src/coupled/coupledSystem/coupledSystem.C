@@ -253,6 +253,7 @@ Foam::coupledSystem::coupledSystem(
         IOobject::READ_IF_PRESENT,
         IOobject::AUTO_WRITE
     )),
+    turnLaterRow_(memory_.lookupOrDefault<label>("turnLaterRow", 0)),
     turnLater_(memory_.lookupOrDefault<label>("turnLater", 0)),
     turningLagged_(false),
     secant_(true),
@@ -289,6 +290,12 @@ Foam::coupledSystem::coupledSystem(
         "longest step whose turning of the stress may be lagged [s]",
         nonNegative,
         1e-3
+    );
+    lagTurningSteps_ = read.wholeNumber(
+        "lagTurningSteps",
+        "most steps in a row whose turning of the stress is lagged",
+        {leastLagTurningSteps_, true, 1e5, true},
+        leastLagTurningSteps_
     );
     closingPressure_ = read.number(
         "closingPressure",
@@ -381,7 +388,15 @@ void Foam::coupledSystem::accept(
 {
     gather(x_);
     state_.pStart.primitiveFieldRef() = pCell_;
-    if (turningLagged_) --turnLater_;
+    if (turningLagged_)
+    {
+        --turnLater_;
+    }
+    else
+    {
+        turnLaterRow_ = 0;
+    }
+    memory_.set("turnLaterRow", turnLaterRow_);
     memory_.set("turnLater", turnLater_);
 
     vectorField& v = state_.pointU.primitiveFieldRef();

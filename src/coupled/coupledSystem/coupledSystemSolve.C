@@ -525,7 +525,10 @@ const Foam::coupledSystem::report& Foam::coupledSystem::solve(
     if (reason < 0 && !turningLagged_ && deltaT_ <= lagTurningBelow_)
     {
         turningLagged_ = true;
-        turnLater_ = turnLaterSteps_;
+        turnLaterRow_ =
+            min(max(2 * turnLaterRow_, leastLagTurningSteps_),
+                lagTurningSteps_);
+        turnLater_ = turnLaterRow_;
         reason = newton();
     }
 

@@ -2,9 +2,8 @@
 // Copyright (C) 2026 the bolusFoam developers
 
 #include "cutSurface.H"
-#include "pointFields.H"
+#include "syncTools.H"
 #include "volFields.H"
-#include "volPointInterpolation.H"
 
 namespace Foam
 {
@@ -60,6 +59,34 @@ static vector cutArea(
     return 0.5 * (twice + (last ^ first));
 }
 
+
+//- Values of the points: of the cells around them, in proportion to 1/distance.
+//  Stock volPointInterpolation keeps its weights and makes them anew whenever
+//  the mesh moves, which took a twentieth of a run of the stomach: all points of
+//  a wedge are on its boundary, where it is slow
+static scalarField atPoints(const volScalarField& alpha)
+{
+    const fvMesh& mesh = alpha.mesh();
+    const pointField& points = mesh.points();
+    const vectorField& centres = mesh.cellCentres();
+    const labelListList& cellPoints = mesh.cellPoints();
+
+    scalarField sum(points.size(), Zero);
+    scalarField weights(points.size(), Zero);
+    forAll(cellPoints, c)
+    {
+        for (const label p : cellPoints[c])
+        {
+            const scalar weight = 1 / mag(points[p] - centres[c]);
+            sum[p] += weight * alpha[c];
+            weights[p] += weight;
+        }
+    }
+    syncTools::syncPointList(mesh, sum, plusEqOp<scalar>(), scalar(0));
+    syncTools::syncPointList(mesh, weights, plusEqOp<scalar>(), scalar(0));
+    return sum / weights;
+}
+
 } // End namespace Foam
 
 
@@ -74,9 +101,7 @@ Foam::cutSurface::cutSurface(
     contact_(alpha.size(), Zero)
 {
     const fvMesh& mesh = alpha.mesh();
-    const scalarField pointAlpha(
-        volPointInterpolation::New(mesh).interpolate(alpha)
-    );
+    const scalarField pointAlpha(atPoints(alpha));
     const labelList& owner = mesh.faceOwner();
     const labelList& neighbour = mesh.faceNeighbour();
 
