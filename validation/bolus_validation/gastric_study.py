@@ -258,7 +258,11 @@ def register_cases(size: float) -> None:
             lambda mine, other: 0.9 < mine / other < 1,
             "agrees if by less than 10 %",
         )
-        plots.curves(list(paths.values()), folder / "curves.png")
+        plots.curves(
+            list(paths.values()),
+            folder / "curves.png",
+            [f"case {name}" for name in paths],
+        )
         found.picture = "curves.png"
         return found
 
@@ -290,7 +294,9 @@ def register_convergence(case: str, sizes: tuple, limits: bool) -> None:
                     (0.5 if seconds else 0.05) if limits else None,
                     1.0 if seconds else None,
                 )
-        plots.curves(paths, folder / "curves.png")
+        plots.curves(
+            paths, folder / "curves.png", [f"{size:g} mm" for size in sizes]
+        )
         found.picture = "curves.png"
         return found
 
@@ -319,7 +325,11 @@ def register_chance(case: str, size: float) -> None:
                 for table in (read_table(p, "externalWork") for p in paths)
             ]
             found.row(f"work until {until:g} s", "J", work[1], work[0])
-        plots.curves(paths, folder / "curves.png")
+        plots.curves(
+            paths,
+            folder / "curves.png",
+            ["first step 10 ms", "first step 9.9 ms"],
+        )
         found.picture = "curves.png"
         return found
 

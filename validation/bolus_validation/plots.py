@@ -322,23 +322,28 @@ _CURVES = (
 )
 
 
-def curves(paths, target: Path) -> bool:
-    """The three curves of the paper's Fig. 9, for one or more cases."""
+def curves(paths, target: Path, labels=None) -> bool:
+    """The three curves of the paper's Fig. 9, for one or more cases.
+
+    labels: what the legend calls each of them, else the names of their folders.
+    """
+    if labels is None:
+        labels = [Path(path).resolve().name for path in paths]
     figure, panels = plt.subplots(1, 3, figsize=(12, 3.8), layout="constrained")
     drawn = 0
-    for path in paths:
-        for axes, (name, column, factor, label) in zip(
+    for path, label in zip(paths, labels, strict=True):
+        for axes, (name, column, factor, quantity) in zip(
             panels, _CURVES, strict=True
         ):
             axes.set_xlabel("t [s]")
-            axes.set_ylabel(label)
+            axes.set_ylabel(quantity)
             table = optional_table(path, name)
             if table:
                 axes.plot(
                     table.time,
                     factor * table[column],
                     linewidth=1.2,
-                    label=Path(path).resolve().name,
+                    label=label,
                 )
                 drawn += 1
     for axes, tag in zip(panels, "abc", strict=True):
