@@ -148,6 +148,14 @@ MUTATIONS = (
         "test_solver_contact.py -k more_steps_turn",
     ),
     Mutation(
+        "points of the surface with the cells of one processor",
+        "src/functionObjects/cutSurface/cutSurface.C",
+        "syncTools::syncPointList(mesh, sum, plusEqOp<scalar>(), scalar(0));",
+        "",
+        ("src/functionObjects",),
+        "test_bolus_functions.py -k cut_of_processors",
+    ),
+    Mutation(
         "lagged friction with twice the pressure",
         CELL,
         "k.pn = lagged_ ? state_.p[c] -",

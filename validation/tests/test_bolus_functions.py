@@ -65,6 +65,15 @@ def test_three_spheres_are_two_pieces_and_a_crumb(spheres, ranks):
     assert row["crumbMass"] > 0
 
 
+def test_surface_at_the_cut_of_processors_is_that_of_one(spheres):
+    # To the digits written: a point there has cells on both sides
+    case, _ = spheres
+    one, two = (
+        post_process(case, "fragments", "alpha mass", np=n) for n in (1, 2)
+    )
+    assert two["area1"] == pytest.approx(one["area1"], rel=1e-8)
+
+
 def test_broken_bolus_connects_nothing_where_only_intact_counts(spheres):
     case, mesh = spheres
     x = mesh.cell_centres[:, 0]
