@@ -98,6 +98,7 @@ def prepare_compression(
     )
     run(case, "python", "system/makeMotion.py")
     run(case, "blockMesh")
+    run(case, "topoSet")
     run(case, "setAlphaField")
     return case
 

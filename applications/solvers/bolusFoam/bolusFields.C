@@ -4,6 +4,8 @@
 #include "bolusFields.H"
 #include "pointMesh.H"
 
+#include <cmath>
+
 namespace Foam
 {
 
@@ -72,6 +74,61 @@ static IOobject transient(const fvMesh& mesh, const word& name)
         IOobject::NO_WRITE
     );
 }
+
+//- How many values of a list are no numbers
+template<class Type>
+static label notNumbers(const UList<Type>& values)
+{
+    label n = 0;
+    for (const Type& value : values)
+    {
+        for (direction d = 0; d < pTraits<Type>::nComponents; ++d)
+        {
+            // Not by <, which traps where there is no number
+            if (!std::isfinite(component(value, d)))
+            {
+                ++n;
+                break;
+            }
+        }
+    }
+    return n;
+}
+
+
+//- Stop if a field was read that holds what is no number
+struct requireNumbers
+{
+    template<class Old, class Field>
+    void operator()(const Old&, const label, const Field& f) const
+    {
+        label n = notNumbers(f.primitiveField());
+        n += boundary(f);
+        reduce(n, sumOp<label>());
+        if (n > 0)
+        {
+            FatalErrorInFunction
+                << "field " << f.name() << " of time " << f.time().timeName()
+                << ": " << n << " values are no finite numbers (nan, inf) in "
+                << f.objectPath() << "; valid are numbers. Put that time aside"
+                << " to start from the one before" << exit(FatalError);
+        }
+    }
+
+    template<class Field>
+    label boundary(const Field& f) const
+    {
+        label n = 0;
+        for (const auto& patch : f.boundaryField()) n += notNumbers(patch);
+        return n;
+    }
+
+    //- Point fields have no values of their own there
+    label boundary(const pointVectorField&) const
+    {
+        return 0;
+    }
+};
 
 } // End namespace Foam
 
@@ -186,15 +243,20 @@ Foam::bolusFields::bolusFields(
         phiRel
     }
 {
-    if (min(alpha).value() < -0.01 || max(alpha).value() > 1.1)
-    {
-        FatalErrorInFunction
-            << "field alpha: values from " << min(alpha).value() << " to "
-            << max(alpha).value() << "; valid are 0 (void) to 1 (bolus)"
-            << exit(FatalError);
-    }
+    forState(requireNumbers());
+
+    // What is there without a memory is a start: transport may leave a cell
+    // overfull, people may not
     if (min(mass).value() < 0)
     {
+        const scalar roundOff = 1e-6;
+        if (min(alpha).value() < -roundOff || max(alpha).value() > 1 + roundOff)
+        {
+            FatalErrorInFunction
+                << "field alpha: values from " << min(alpha).value() << " to "
+                << max(alpha).value() << "; valid are 0 (void) to 1 (bolus)"
+                << exit(FatalError);
+        }
         mass = alpha
             * exp(p / dimensionedScalar("K", dimPressure, law.elastic().K()));
     }

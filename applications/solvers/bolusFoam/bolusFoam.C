@@ -30,7 +30,10 @@ Usage
 #include "bolusFields.H"
 #include "energyBooks.H"
 #include "historyTransport.H"
+#include "meshCheck.H"
 #include "progress.H"
+#include "runLock.H"
+#include "signalReport.H"
 #include "stepControl.H"
 #include "voidLaw.H"
 #include "writtenTime.H"
@@ -77,6 +80,27 @@ static void requireFunctionObjects(const Time& runTime)
 }
 
 
+//- Numerics count from the start of a run. With runTimeModifiable OpenFOAM
+//  reads fvSolution again, and says so: then it must be told what for
+static void tellWhatCountsLater(const fvMesh& mesh, SHA1Digest& before)
+{
+    dictionary ours;
+    for (const word& name : {word("bolus"), word("transport")})
+    {
+        ours.add(name, mesh.solutionDict().subOrEmptyDict(name));
+    }
+    const SHA1Digest now(ours.digest());
+    if (!before.empty() && now != before)
+    {
+        WarningInFunction
+            << "t " << mesh.time().value() << " s: entries bolus or transport"
+            << " of fvSolution have changed. They count from the next start on"
+            << " (-continue); this run goes on with the old ones" << endl;
+    }
+    before = now;
+}
+
+
 int main(int argc, char* argv[])
 {
     argList::addNote(
@@ -90,19 +114,10 @@ int main(int argc, char* argv[])
 
     #include "setRootCase.H"
     #include "createTime.H"
+    const runLock folder(runTime.globalPath());
     petscSession petsc;
-
-    if (!isFile(runTime.path() / runTime.constant() / "polyMesh" / "points")
-        && !isFile(
-            runTime.path() / runTime.constant() / "polyMesh" / "points.gz"
-        ))
-    {
-        FatalErrorInFunction
-            << "the case has no mesh: there is no constant/polyMesh/points;"
-            << " make it by blockMesh (in parallel: and decomposePar)"
-            << exit(FatalError);
-    }
-
+    signalReport signals(runTime);
+    meshCheck::requireMesh(runTime);
     writtenTime written(runTime);
 
     autoPtr<dynamicFvMesh> meshPtr(
@@ -126,17 +141,26 @@ int main(int argc, char* argv[])
     const voidLaw voids(properties.subOrEmptyDict("void"));
     const dictionary& solver = mesh.solutionDict().subOrEmptyDict("bolus");
 
-    bolusFields fields(mesh, law);
+    autoPtr<bolusFields> fieldsPtr;
+    {
+        // What is no number is found and named
+        const trapsOff noTraps;
+        fieldsPtr.reset(new bolusFields(mesh, law));
+    }
+    bolusFields& fields = fieldsPtr();
     coupledSystem system(law, voids, fields.state, solver);
     historyTransport transport(
         fields.state,
         law.elastic().K(),
+        system.space().axes(),
         system.inertia() > 0,
         mesh.solutionDict().subOrEmptyDict("transport")
     );
     stepControl control(runTime);
     energyBooks energy(runTime, fields, law, system.inertia());
     progress report(runTime, fields, control, energy);
+
+    SHA1Digest numerics;
 
     Info << "Starting at t = " << runTime.value() << " s" << nl << endl;
 
@@ -147,8 +171,10 @@ int main(int argc, char* argv[])
         {
             requireFunctionObjects(runTime);
         }
-        written.complete();
+        if (written.complete()) signals.written(written.name());
+        tellWhatCountsLater(mesh, numerics);
         fields.store();
+        signals.step();
         control.start();
 
         coupledSystem::report solved;
@@ -156,11 +182,16 @@ int main(int argc, char* argv[])
         bool done = false;
         label overfull = 0;
         const scalar fullest = gMax(fields.alpha.primitiveField());
+        bool again = false;
         while (!done)
         {
             {
+                // Motion solvers that move on from where the mesh is
+                if (again) mesh.movePoints(pointField(mesh.oldPoints()));
+                again = true;
                 addProfiling(motion, "mesh motion");
                 mesh.update();
+                meshCheck::requireSoundCells(mesh);
             }
             {
                 addProfiling(equilibrium, "equilibrium");
@@ -229,6 +260,13 @@ int main(int argc, char* argv[])
     }
     written.complete();
 
+    if (runTime.timeIndex() == runTime.startTimeIndex())
+    {
+        Info << "Nothing left to do: the last written time, "
+             << runTime.timeName() << " s, is at or beyond endTime "
+             << runTime.endTime().value() << " s. A later endTime goes on"
+             << endl;
+    }
     report.summary(system.linearIterations());
     Info << "End" << nl << endl;
 

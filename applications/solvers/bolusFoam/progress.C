@@ -33,8 +33,8 @@ Foam::progress::progress(
     turned_(books_.lookupOrDefault<label>("turned", 0)),
     turning_(false),
     spilled_(books_.lookupOrDefault<scalar>("spilled", 0)),
-    alphaMin_(GREAT),
-    alphaMax_(-GREAT),
+    alphaMin_(gMin(fields.alpha.primitiveField())),
+    alphaMax_(gMax(fields.alpha.primitiveField())),
     massError_(0)
 {
     if (!(initial_ > 0))
@@ -44,6 +44,7 @@ Foam::progress::progress(
             << " field with alpha = 1 somewhere (setAlphaField)"
             << exit(FatalError);
     }
+    massError_ = (fields_.totalMass() + emptied_ - initial_) / initial_;
     books_.set("initial", initial_);
     books_.set("emptied", emptied_);
 

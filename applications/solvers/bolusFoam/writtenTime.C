@@ -7,6 +7,21 @@
 #include "OSspecific.H"
 #include "PstreamReduceOps.H"
 
+namespace Foam
+{
+
+//- Digits of the names of times, which Time lets its own kind change only
+struct nameDigits : public Time
+{
+    static int& value()
+    {
+        return precision_;
+    }
+};
+
+} // End namespace Foam
+
+
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
 Foam::fileName Foam::writtenTime::mark(const fileName& folder)
@@ -25,11 +40,49 @@ void Foam::writtenTime::fail(const fileName& folder) const
 }
 
 
+void Foam::writtenTime::requireDigits() const
+{
+    const dictionary& dict = time_.controlDict();
+
+    // Of case A, half a second after a restart, the force is another one by
+    // 4e-5 with 6 digits, 6e-7 with 8, 2e-9 with 10
+    const label least = 10;
+    const label digits = label(IOstream::defaultPrecision());
+    if (time_.writeFormat() == IOstream::ASCII && digits < least)
+    {
+        FatalIOErrorInFunction(dict)
+            << "entry writePrecision: " << digits << " with writeFormat ascii;"
+            << " valid are " << least << " and more, or writeFormat binary:"
+            << " with fewer digits a run that goes on from what was written"
+            << " would be another run" << exit(FatalIOError);
+    }
+}
+
+
+void Foam::writtenTime::findName()
+{
+    // A step's rounding error is not worth a digit. With fewer than all digits
+    // OpenFOAM might not find the time again, and start from none
+    const scalar enough = 1e-9 * time_.deltaTValue();
+    if (mag(readScalar(time_.timeName()) - time_.value()) > enough)
+    {
+        static_cast<TimeState&>(time_).dimensionedScalar::name() =
+            Time::timeName(time_.value(), 17);
+    }
+}
+
+
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
 Foam::writtenTime::writtenTime(Time& time) :
     time_(time)
 {
+    // OpenFOAM takes all digits that a number has where it needs them to find
+    // the folder: the names to come are those of a run that did not stop
+    nameDigits::value() =
+        time.controlDict().lookupOrDefault<label>("timePrecision", 6);
+    requireDigits();
+
     const fileName folder(time.timePath());
     if (isFile(folder / "uniform" / "time") && !isFile(mark(folder)))
     {
@@ -47,6 +100,7 @@ Foam::writtenTime::writtenTime(Time& time) :
 
 void Foam::writtenTime::write()
 {
+    findName();
     const fileName folder(time_.timePath());
     // Until it is written again, what is there is not to be trusted
     rm(mark(folder));
@@ -54,12 +108,13 @@ void Foam::writtenTime::write()
     reduce(written, andOp<bool>());
     if (!written) fail(folder);
     pending_ = folder;
+    pendingName_ = time_.timeName();
 }
 
 
-void Foam::writtenTime::complete()
+bool Foam::writtenTime::complete()
 {
-    if (pending_.empty()) return;
+    if (pending_.empty()) return false;
 
     mkDir(pending_ / "uniform");
     bool written;
@@ -71,6 +126,7 @@ void Foam::writtenTime::complete()
     reduce(written, andOp<bool>());
     if (!written) fail(pending_);
     pending_.clear();
+    return true;
 }
 
 // ************************************************************************* //

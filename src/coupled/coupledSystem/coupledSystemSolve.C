@@ -272,13 +272,7 @@ void Foam::coupledSystem::computeNorms(Vec f)
         const label node = space_.ownedNodes()[where / space_.nd()];
         worst.second() = mesh_.points()[space_.pointNode().find(node)];
     }
-    combineReduce(
-        worst,
-        [](Tuple2<scalar, point>& a, const Tuple2<scalar, point>& b)
-        {
-            if (b.first() > a.first()) a = b;
-        }
-    );
+    reduce(worst, maxFirstOp<scalar>());
     report_.worst = worst.second();
 }
 

@@ -4,6 +4,7 @@
 #include "historyTransport.H"
 #include "entryReader.H"
 #include "processorPolyPatch.H"
+#include "transformField.H"
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
@@ -13,16 +14,12 @@ void Foam::historyTransport::pack()
     all[0] = state_.p.primitiveField();
     all[1] = state_.epsilonPEq.primitiveField();
     all[2] = state_.D.primitiveField();
-    for (direction d = 0; d < 6; ++d)
-    {
-        all[3 + d] = state_.deviator.primitiveField().component(d);
-    }
+    const symmTensorField s(transform(axes_, state_.deviator.primitiveField()));
+    for (direction d = 0; d < 6; ++d) all[3 + d] = s.component(d);
     all[9] = state_.soundStrain.primitiveField();
     all[10] = state_.tensileStrain.primitiveField();
-    for (direction d = 0; inertia_ && d < 3; ++d)
-    {
-        all[11 + d] = state_.U.primitiveField().component(d);
-    }
+    const vectorField U(transform(axes_, state_.U.primitiveField()));
+    for (direction d = 0; inertia_ && d < 3; ++d) all[11 + d] = U.component(d);
 
     // What is nowhere stays so; the pressure moves always. Shear out of the
     // plane of a slice is round-off (1e-13 of the stress in case D)
@@ -75,15 +72,16 @@ void Foam::historyTransport::unpack()
     state_.p.primitiveFieldRef() = all[0];
     state_.epsilonPEq.primitiveFieldRef() = all[1];
     state_.D.primitiveFieldRef() = all[2];
-    for (direction d = 0; d < 6; ++d)
-    {
-        state_.deviator.primitiveFieldRef().replace(d, all[3 + d]);
-    }
+    symmTensorField s(mesh_.nCells());
+    for (direction d = 0; d < 6; ++d) s.replace(d, all[3 + d]);
+    state_.deviator.primitiveFieldRef() = transform(axes_.T(), s);
     state_.soundStrain.primitiveFieldRef() = all[9];
     state_.tensileStrain.primitiveFieldRef() = all[10];
-    for (direction d = 0; inertia_ && d < 3; ++d)
+    if (inertia_)
     {
-        state_.U.primitiveFieldRef().replace(d, all[11 + d]);
+        vectorField U(mesh_.nCells());
+        for (direction d = 0; d < 3; ++d) U.replace(d, all[11 + d]);
+        state_.U.primitiveFieldRef() = transform(axes_.T(), U);
     }
     state_.p.correctBoundaryConditions();
     state_.epsilonPEq.correctBoundaryConditions();
@@ -165,12 +163,14 @@ void Foam::historyTransport::exchange(
 Foam::historyTransport::historyTransport(
     bolusState& state,
     const scalar bulkModulus,
+    const tensor& axes,
     const bool inertia,
     const dictionary& dict
 ) :
     mesh_(state.alpha.mesh()),
     state_(state),
     K_(bulkModulus),
+    axes_(axes),
     inertia_(inertia),
     patch_(mesh_.boundaryMesh().patchID())
 {

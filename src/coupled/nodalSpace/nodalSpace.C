@@ -11,36 +11,23 @@
 #include "wedgePolyPatch.H"
 #include "emptyPolyPatch.H"
 #include "processorPolyPatch.H"
-#include "mathematicalConstants.H"
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
 void Foam::nodalSpace::findSlice()
 {
-    wedge_ = false;
     nd_ = 3;
     e1_ = vector(1, 0, 0);
     e2_ = vector(0, 1, 0);
     e3_ = vector(0, 0, 1);
 
-    for (const polyPatch& pp : mesh_.boundaryMesh())
+    if (frame_.valid())
     {
-        if (isA<wedgePolyPatch>(pp))
-        {
-            const wedgePolyPatch& wpp = refCast<const wedgePolyPatch>(pp);
-            wedge_ = true;
-            nd_ = 2;
-            e1_ = wpp.axis() / mag(wpp.axis());
-            e3_ = wpp.centreNormal() / mag(wpp.centreNormal());
-            e2_ = e3_ ^ e1_;
-
-            // The two wedges give opposite axes; take the positive one
-            if (cmptSum(e1_) < 0) e1_ *= -1;
-            const boundBox& bb = mesh_.bounds();
-            if ((bb.midpoint() & e2_) < 0) e2_ *= -1;
-            e3_ = e1_ ^ e2_;
-            return;
-        }
+        nd_ = 2;
+        e1_ = frame_.axis();
+        e2_ = frame_.radial();
+        e3_ = frame_.normal();
+        return;
     }
 
     // Directions without geometry: the number of solution directions counts
@@ -126,15 +113,29 @@ void Foam::nodalSpace::pairPoints()
     }
     nodePoint_.transfer(nodePoint);
 
-    if (wedge_)
+    onAxis_.setSize(nodePoint_.size(), false);
+    if (frame_.valid())
     {
+        scalar largest = 0;
+        for (const point& x : mesh_.points())
+        {
+            largest = max(largest, mag(frame_.fromAxis(x)));
+        }
+        reduce(largest, maxOp<scalar>());
+
         forAll(Q_, p)
         {
-            const vector& x = mesh_.points()[p];
+            const vector x(frame_.fromAxis(mesh_.points()[p]));
             const scalar y = x & e2_;
             const scalar z = x & e3_;
             const scalar r = std::sqrt(y * y + z * z);
-            if (partner[p] >= 0 && r > VSMALL)
+
+            // By topology; or a pair that some mesher did not merge there
+            if (frame_.onAxis()[p] || r < 1e-9 * largest)
+            {
+                onAxis_[pointNode_[p]] = true;
+            }
+            else if (partner[p] >= 0)
             {
                 const scalar c = y / r;
                 const scalar s = z / r;
@@ -283,14 +284,9 @@ void Foam::nodalSpace::setConstraints(const scalar deltaT)
     boolList full(nNodes, false);
 
     // Points on the axis of a wedge stay there
-    if (wedge_)
+    forAll(onAxis_, n)
     {
-        const scalar tol = 1e-9 * mesh_.bounds().mag();
-        forAll(nodePoint_, n)
-        {
-            const point& x = mesh_.points()[nodePoint_[n]];
-            if (mag(x - (x & e1_) * e1_) < tol) constrain(n, e2_);
-        }
+        if (onAxis_[n]) constrain(n, e2_);
     }
 
     forAll(bm, patchi)
@@ -470,6 +466,8 @@ void Foam::nodalSpace::setCells()
         List<vector> A(pts.size(), Zero);
         List<vector> B(pts.size(), Zero);
         scalar V = 0;
+        // A point nearby: wherever the mesh is, no digits are lost
+        const point& near = midPoints_[pts[0]];
         for (const label facei : mesh_.cells()[c])
         {
             const scalar sign = (own[facei] == c ? 1 : -1);
@@ -480,7 +478,7 @@ void Foam::nodalSpace::setCells()
                 const vector w = sign * faceWeight(facei, fp);
                 A[i] += w;
                 if (counted[facei]) B[i] += w;
-                V += w & midPoints_[p];
+                V += w & (midPoints_[p] - near);
             }
         }
         V /= 3;
@@ -554,7 +552,8 @@ void Foam::nodalSpace::setCells()
 
 Foam::nodalSpace::nodalSpace(const fvMesh& mesh, const List<patchKind>& kinds) :
     mesh_(mesh),
-    kinds_(kinds)
+    kinds_(kinds),
+    frame_(mesh)
 {
     findSlice();
     pairPoints();
@@ -615,24 +614,6 @@ void Foam::nodalSpace::solveOnly(const boolList& cells)
     {
         if (frozen_[n]) nFixed_[n] = nd_;
     }
-}
-
-
-Foam::scalar Foam::nodalSpace::wedgeAngle() const
-{
-    if (!wedge_) return constant::mathematical::twoPi;
-
-    for (const polyPatch& pp : mesh_.boundaryMesh())
-    {
-        if (isA<wedgePolyPatch>(pp))
-        {
-            return 2
-                * std::acos(
-                    min(refCast<const wedgePolyPatch>(pp).cosAngle(), scalar(1))
-                );
-        }
-    }
-    return constant::mathematical::twoPi;
 }
 
 

@@ -16,6 +16,20 @@ struct quietTimeState : public TimeState
     }
 };
 
+static void requirePositive(
+    const dictionary& dict,
+    const word& name,
+    const scalar v
+)
+{
+    if (!(v > 0))
+    {
+        FatalIOErrorInFunction(dict)
+            << "entry " << name << ": " << v << "; valid are numbers > 0"
+            << exit(FatalIOError);
+    }
+}
+
 } // End namespace Foam
 
 
@@ -36,7 +50,18 @@ Foam::stepControl::stepControl(Time& time) :
     iterations_(memory_.lookupOrDefault<label>("iterations", 0)),
     writeInterval_(0)
 {
-    const dictionary& dict = time.controlDict();
+    read();
+
+    const dictionary& dict = time_.controlDict();
+    deltaT_ =
+        memory_.lookupOrDefault<scalar>("deltaT", dict.get<scalar>("deltaT"));
+    requirePositive(dict, "deltaT", deltaT_);
+}
+
+
+void Foam::stepControl::read()
+{
+    const dictionary& dict = time_.controlDict();
 
     // Others read this dictionary too: only what looks like one of ours can be
     // told to be misspelt
@@ -55,41 +80,64 @@ Foam::stepControl::stepControl(Time& time) :
         }
     }
 
-    deltaT_ =
-        memory_.lookupOrDefault<scalar>("deltaT", dict.get<scalar>("deltaT"));
-    maxDeltaT_ = dict.lookupOrDefault<scalar>("maxDeltaT", 0.05);
-    minDeltaT_ = dict.lookupOrDefault<scalar>("minDeltaT", 1e-5);
-    maxCourant_ = dict.lookupOrDefault<scalar>("maxCourant", 1);
-    easyIterations_ = dict.lookupOrDefault<label>("easyIterations", 8);
-
-    auto positive = [&](const word& name, const scalar v)
-    {
-        if (!(v > 0))
-        {
-            FatalIOErrorInFunction(dict)
-                << "entry " << name << ": " << v << "; valid are numbers > 0"
-                << exit(FatalIOError);
-        }
-    };
-    positive("deltaT", deltaT_);
-    positive("maxDeltaT", maxDeltaT_);
-    positive("minDeltaT", minDeltaT_);
-    positive("maxCourant", maxCourant_);
-    positive("easyIterations", easyIterations_);
-    if (minDeltaT_ > maxDeltaT_)
+    const scalar maxDeltaT = dict.lookupOrDefault<scalar>("maxDeltaT", 0.05);
+    const scalar minDeltaT = dict.lookupOrDefault<scalar>("minDeltaT", 1e-5);
+    const scalar maxCourant = dict.lookupOrDefault<scalar>("maxCourant", 1);
+    const label easyIterations =
+        dict.lookupOrDefault<label>("easyIterations", 8);
+    requirePositive(dict, "maxDeltaT", maxDeltaT);
+    requirePositive(dict, "minDeltaT", minDeltaT);
+    requirePositive(dict, "maxCourant", maxCourant);
+    requirePositive(dict, "easyIterations", easyIterations);
+    if (minDeltaT > maxDeltaT)
     {
         FatalIOErrorInFunction(dict)
-            << "entry minDeltaT: " << minDeltaT_
-            << " s; valid are numbers up to"
-            << " maxDeltaT, " << maxDeltaT_ << " s" << exit(FatalIOError);
+            << "entry minDeltaT: " << minDeltaT << " s; valid are numbers up to"
+            << " maxDeltaT, " << maxDeltaT << " s" << exit(FatalIOError);
     }
 
+    scalar writeInterval = 0;
     const word control(dict.get<word>("writeControl"));
     if (control == "adjustableRunTime" || control == "adjustable")
     {
-        writeInterval_ = dict.get<scalar>("writeInterval");
-        positive("writeInterval", writeInterval_);
+        writeInterval = dict.get<scalar>("writeInterval");
+        requirePositive(dict, "writeInterval", writeInterval);
     }
+
+    // All of them are good
+    maxDeltaT_ = maxDeltaT;
+    minDeltaT_ = minDeltaT;
+    maxCourant_ = maxCourant;
+    easyIterations_ = easyIterations;
+    writeInterval_ = writeInterval;
+}
+
+
+void Foam::stepControl::readModified()
+{
+    const SHA1Digest digest(time_.controlDict().digest());
+    if (digest == digest_) return;
+    const bool first = digest_.empty();
+    digest_ = digest;
+    if (first) return;
+
+    // A run of hours does not end at a slip of the pen
+    const bool throws = FatalIOError.throwExceptions();
+    try
+    {
+        read();
+        Info << "t " << time_.value() << " s: controlDict has changed: endTime "
+             << time_.endTime().value() << " s, maxDeltaT " << maxDeltaT_
+             << " s, minDeltaT " << minDeltaT_ << " s, maxCourant "
+             << maxCourant_ << ", easyIterations " << easyIterations_
+             << ", writeInterval " << writeInterval_ << " s" << endl;
+    }
+    catch (const IOerror& bad)
+    {
+        Info << "t " << time_.value() << " s: controlDict has changed, and is"
+             << " not taken over: " << bad.message().c_str() << endl;
+    }
+    FatalIOError.throwExceptions(throws);
 }
 
 
@@ -111,6 +159,7 @@ void Foam::stepControl::advance(const scalar deltaT)
 
 void Foam::stepControl::start()
 {
+    readModified();
     scalar dt = min(deltaT_, maxDeltaT_);
 
     // Meet the next event in equal steps

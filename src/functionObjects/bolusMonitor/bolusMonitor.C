@@ -7,7 +7,7 @@
 #include "OSspecific.H"
 #include "volFields.H"
 #include "wallPolyPatch.H"
-#include "wedgePolyPatch.H"
+#include "wedgeFrame.H"
 
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
 
@@ -76,26 +76,6 @@ void Foam::functionObjects::bolusMonitor::rejectUnknown(
                 << " object has" << exit(FatalIOError);
         }
     }
-}
-
-
-Foam::scalar Foam::functionObjects::bolusMonitor::wedgeFactor() const
-{
-    // Every processor has all the wedge patches, if without faces, whose
-    // angle is then not known: take the largest
-    scalar theta = 0;
-    for (const polyPatch& pp : mesh_.boundaryMesh())
-    {
-        if (isA<wedgePolyPatch>(pp) && pp.size())
-        {
-            const scalar half =
-                std::acos(refCast<const wedgePolyPatch>(pp).cosAngle());
-            theta = max(theta, 2 * half);
-        }
-    }
-    reduce(theta, maxOp<scalar>());
-
-    return theta > 0 ? constant::mathematical::twoPi / theta : 1;
 }
 
 
@@ -276,23 +256,6 @@ Foam::labelHashSet Foam::functionObjects::bolusMonitor::readPatches(
 }
 
 
-Foam::vector Foam::functionObjects::bolusMonitor::readAxis(
-    const dictionary& dict
-) const
-{
-    const vector axis(dict.lookupOrDefault<vector>("axis", vector(1, 0, 0)));
-
-    if (mag(axis) < VSMALL)
-    {
-        FatalIOErrorInFunction(dict)
-            << "entry axis: " << axis << " has no direction; valid is any"
-            << " vector of length > 0" << exit(FatalIOError);
-    }
-
-    return axis / mag(axis);
-}
-
-
 void Foam::functionObjects::bolusMonitor::begin()
 {
     openTable();
@@ -358,7 +321,10 @@ Foam::functionObjects::bolusMonitor::bolusMonitor(
     fvMeshFunctionObject(name, runTime, dict),
     writeFile(mesh_, name, type),
     fields_(fields),
-    factor_(dict.lookupOrDefault<scalar>("geometryFactor", wedgeFactor())),
+    factor_(dict.lookupOrDefault<scalar>(
+        "geometryFactor",
+        constant::mathematical::twoPi / wedgeFrame(mesh_).angle()
+    )),
     rho_(readDensity()),
     initialMass_(getProperty<scalar>("initialMass", -1)),
     summedUpTo_(getProperty<scalar>("summedUpTo", runTime.value())),
@@ -383,6 +349,17 @@ Foam::functionObjects::bolusMonitor::bolusMonitor(
 
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+bool Foam::functionObjects::bolusMonitor::read(const dictionary& dict)
+{
+    WarningInFunction
+        << "t " << time_.value() << " s: entries of " << name()
+        << " have changed. They count from the next start on (-continue); it"
+        << " goes on with the old ones" << endl;
+
+    return true;
+}
+
 
 bool Foam::functionObjects::bolusMonitor::execute()
 {

@@ -53,10 +53,11 @@ Foam::scalarList Foam::functionObjects::bolusStatistics::values()
     const scalarField& stress = field("sigmaEq");
     const scalarField& strain = field("epsilonPEq");
     const scalarField& p = field("p");
-    const scalarField x(mesh_.C().primitiveField() & axis_);
+    const vectorField& C = mesh_.C();
 
+    using valueAt = Tuple2<scalar, scalar>;
     DynamicList<scalar> etas, etaVolume, strains, volumes;
-    Tuple2<scalar, scalar> low(GREAT, 0), high(-GREAT, 0);
+    valueAt low(GREAT, 0), high(-GREAT, 0);
     forAll(alpha, c)
     {
         if (alpha[c] <= 0.5) continue;
@@ -68,25 +69,13 @@ Foam::scalarList Foam::functionObjects::bolusStatistics::values()
             etas.append(eta[c]);
             etaVolume.append(volume);
         }
-        if (p[c] < low.first()) low = Tuple2<scalar, scalar>(p[c], x[c]);
-        if (p[c] > high.first()) high = Tuple2<scalar, scalar>(p[c], x[c]);
+        const scalar x = frame_.along(C[c]);
+        if (p[c] < low.first()) low = valueAt(p[c], x);
+        if (p[c] > high.first()) high = valueAt(p[c], x);
     }
-    using pair = Tuple2<scalar, scalar>;
-    combineReduce(
-        low,
-        [](pair& a, const pair& b)
-        {
-            if (b.first() < a.first()) a = b;
-        }
-    );
-    combineReduce(
-        high,
-        [](pair& a, const pair& b)
-        {
-            if (b.first() > a.first()) a = b;
-        }
-    );
-    if (low.first() > 0.5 * GREAT) low = high = pair(0, 0);
+    reduce(low, minFirstOp<scalar>());
+    reduce(high, maxFirstOp<scalar>());
+    if (low.first() > 0.5 * GREAT) low = high = valueAt(0, 0);
 
     const weightedSample loads(etas, etaVolume);
     const weightedSample strained(strains, volumes);
@@ -118,9 +107,9 @@ Foam::functionObjects::bolusStatistics::bolusStatistics(
         dict,
         typeName,
         {"alpha", "mass", "D", "triaxiality", "sigmaEq", "epsilonPEq", "p"},
-        {"axis", "loaded"}
+        axialFrame::entries({"loaded"})
     ),
-    axis_(readAxis(dict)),
+    frame_(mesh_, dict),
     loaded_(dict.lookupOrDefault<scalar>("loaded", 410))
 {
     begin();

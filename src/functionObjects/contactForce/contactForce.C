@@ -84,7 +84,7 @@ Foam::scalarList Foam::functionObjects::contactForce::values()
     Pstream::listCombineScatter(sums);
 
     const scalarList mesh(
-        {net & axis_, sums[0], sums[1], sums[2], mag(net), sums[3]}
+        {net & frame_.axis(), sums[0], sums[1], sums[2], mag(net), sums[3]}
     );
 
     const scalar grams = 1000 * initialMass();
@@ -117,10 +117,10 @@ Foam::functionObjects::contactForce::contactForce(
         dict,
         typeName,
         {"mass", "wallForce"},
-        {"patches", "axis"}
+        axialFrame::entries({"patches"})
     ),
     patches_(readPatches(dict, "patches", true)),
-    axis_(readAxis(dict))
+    frame_(mesh_, dict)
 {
     begin();
 }

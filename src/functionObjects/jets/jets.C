@@ -37,9 +37,9 @@ Foam::stringList Foam::functionObjects::jets::heads() const
 Foam::scalarList Foam::functionObjects::jets::values()
 {
     const scalarField& alpha = field("alpha");
-    const scalarField x(mesh_.C().primitiveField() & axis_);
+    const vectorField& C = mesh_.C();
     const scalarField u(
-        mesh_.lookupObject<volVectorField>("U").primitiveField() & axis_
+        mesh_.lookupObject<volVectorField>("U").primitiveField() & frame_.axis()
     );
 
     DynamicList<scalar> back, backVolume, out, outVolume;
@@ -47,12 +47,13 @@ Foam::scalarList Foam::functionObjects::jets::values()
     {
         if (alpha[c] <= 0.5) continue;
         const scalar volume = alpha[c] * mesh_.V()[c];
-        if (x[c] < pylorus_.first())
+        const scalar x = frame_.along(C[c]);
+        if (x < pylorus_.first())
         {
             back.append(max(-u[c], scalar(0)));
             backVolume.append(volume);
         }
-        else if (x[c] < pylorus_.second())
+        else if (x < pylorus_.second())
         {
             out.append(max(u[c], scalar(0)));
             outVolume.append(volume);
@@ -82,9 +83,9 @@ Foam::functionObjects::jets::jets(
         dict,
         typeName,
         {"alpha", "mass", "U"},
-        {"axis", "pylorus"}
+        axialFrame::entries({"pylorus"})
     ),
-    axis_(readAxis(dict)),
+    frame_(mesh_, dict),
     pylorus_(dict.get<Tuple2<scalar, scalar>>("pylorus"))
 {
     if (pylorus_.first() >= pylorus_.second())

@@ -31,7 +31,7 @@ Foam::scalar Foam::functionObjects::retainedMass::massBeyond(
     scalar volume = 0;
     forAll(m, celli)
     {
-        if ((C[celli] & axis_) > position)
+        if (frame_.along(C[celli]) > position)
         {
             volume += m[celli] * V[celli];
         }
@@ -133,10 +133,10 @@ Foam::functionObjects::retainedMass::retainedMass(
         dict,
         typeName,
         {"alpha", "mass", "massFlux"},
-        {"outlets", "axis", "throat", "closedBetween"}
+        axialFrame::entries({"outlets", "throat", "closedBetween"})
     ),
     outlets_(readPatches(dict, "outlets", false)),
-    axis_(readAxis(dict)),
+    frame_(mesh_, dict),
     throat_(dict.lookupOrDefault<scalar>("throat", GREAT)),
     closed_(GREAT, GREAT),
     emptied_(restored("emptied")),
@@ -147,8 +147,15 @@ Foam::functionObjects::retainedMass::retainedMass(
 
     if (dict.found("throat"))
     {
-        const scalarField along(mesh_.points() & axis_);
-        const scalar low = gMin(along), high = gMax(along);
+        scalar low = GREAT;
+        scalar high = -GREAT;
+        for (const point& p : mesh_.points())
+        {
+            low = min(low, frame_.along(p));
+            high = max(high, frame_.along(p));
+        }
+        reduce(low, minOp<scalar>());
+        reduce(high, maxOp<scalar>());
         if (!(throat_ >= low && throat_ <= high))
         {
             FatalIOErrorInFunction(dict)

@@ -22,6 +22,13 @@ Foam::vanDerWaals::vanDerWaals(const dictionary& dict) :
     within("a", a_, a_ >= 0, "numbers >= 0");
     within("beta", beta_, beta_ >= 0 && beta_ <= 1, "numbers >= 0 and <= 1");
     within("K", K_, K_ > 0, "moduli > 0 Pa");
+
+    // With x = sqrt((I - 3)/2) and zeta = c x: 1 = a x (1 - c x)
+    const scalar locked = sqr(lambdaM_) - 3;
+    const scalar c = std::sqrt(2 / locked);
+    const scalar x = a_ > 4 * c ? (1 - std::sqrt(1 - 4 * c / a_)) / (2 * c)
+                                : scalar(0.99) / c;
+    largest_ = 3 + 2 * sqr(x);
 }
 
 
@@ -31,7 +38,7 @@ Foam::wordList Foam::vanDerWaals::entries()
 }
 
 
-Foam::scalar Foam::vanDerWaals::energy(
+Foam::scalar Foam::vanDerWaals::invariant(
     const scalar l1,
     const scalar l2,
     const scalar l3
@@ -42,7 +49,18 @@ Foam::scalar Foam::vanDerWaals::energy(
     const scalar I1 = std::pow(J, -2.0 / 3) * (s1 + s2 + s3);
     const scalar I2 = std::pow(J, -4.0 / 3) * (s1 * s2 + s2 * s3 + s3 * s1);
     // Round-off may leave a little less than 3
-    const scalar I = max((1 - beta_) * I1 + beta_ * I2, scalar(3));
+    return max((1 - beta_) * I1 + beta_ * I2, scalar(3));
+}
+
+
+Foam::scalar Foam::vanDerWaals::energy(
+    const scalar l1,
+    const scalar l2,
+    const scalar l3
+) const
+{
+    const scalar J = l1 * l2 * l3;
+    const scalar I = min(invariant(l1, l2, l3), largest_);
     const scalar locked = sqr(lambdaM_) - 3;
     const scalar zeta = std::sqrt((I - 3) / locked);
 
@@ -53,7 +71,10 @@ Foam::scalar Foam::vanDerWaals::energy(
 }
 
 
-Foam::scalar Foam::vanDerWaals::membrane(const scalar l1, const scalar l2) const
+Foam::scalar Foam::vanDerWaals::thickness(
+    const scalar l1,
+    const scalar l2
+) const
 {
     // Golden section about the incompressible thickness: the energy has one
     // minimum there, within what a bulk modulus of some shear moduli allows
@@ -73,7 +94,13 @@ Foam::scalar Foam::vanDerWaals::membrane(const scalar l1, const scalar l2) const
             low = x;
         }
     }
-    return energy(l1, l2, 0.5 * (low + high));
+    return 0.5 * (low + high);
+}
+
+
+Foam::scalar Foam::vanDerWaals::membrane(const scalar l1, const scalar l2) const
+{
+    return energy(l1, l2, thickness(l1, l2));
 }
 
 // ************************************************************************* //

@@ -28,15 +28,17 @@ Foam::string Foam::functionObjects::wallEnergy::title() const
 
 Foam::stringList Foam::functionObjects::wallEnergy::heads() const
 {
-    return stringList({"energy [J]", "hoopMax [-]", "hoopMin [-]"});
+    return stringList(
+        {"energy [J]", "hoopMax [-]", "hoopMin [-]", "beyondLaw [-]"}
+    );
 }
 
 
 Foam::scalarList Foam::functionObjects::wallEnergy::values()
 {
-    auto radius = [&](const point& x) { return mag(x - (x & axis_) * axis_); };
-
     scalar energy = 0;
+    scalar area = 0;
+    scalar beyond = 0;
     scalar most = 0;
     scalar least = GREAT;
     for (const label patchi : patches_)
@@ -45,18 +47,35 @@ Foam::scalarList Foam::functionObjects::wallEnergy::values()
         for (const face& f : static_cast<const faceList&>(patch))
         {
             const scalar A0 = f.mag(relaxed_);
-            const scalar hoop =
-                radius(f.centre(mesh_.points())) / radius(f.centre(relaxed_));
+            const scalar hoop = frame_.radius(f.centre(mesh_.points()))
+                / frame_.radius(f.centre(relaxed_));
             const scalar axial = f.mag(mesh_.points()) / (A0 * hoop);
-            energy += law_.membrane(hoop, axial) * thickness_ * A0;
+            const scalar thick = law_.thickness(hoop, axial);
+            energy += law_.energy(hoop, axial, thick) * thickness_ * A0;
+            area += A0;
+            if (law_.beyond(hoop, axial, thick)) beyond += A0;
             most = max(most, hoop);
             least = min(least, hoop);
         }
     }
+    reduce(area, sumOp<scalar>());
+    reduce(beyond, sumOp<scalar>());
+    if (beyond > 0 && !told_)
+    {
+        told_ = true;
+        WarningInFunction
+            << "t " << time_.value() << " s: the wall is deformed beyond the"
+            << " range of its law on " << 100 * beyond / area
+            << " % of its area (hoop stretch "
+            << returnReduce(least, minOp<scalar>())
+            << "); its energy there is a lower bound. The column beyondLaw of "
+            << name() << " has that part at all times" << endl;
+    }
     return scalarList(
         {factor() * returnReduce(energy, sumOp<scalar>()),
             returnReduce(most, maxOp<scalar>()),
-            returnReduce(least, minOp<scalar>())}
+            returnReduce(least, minOp<scalar>()),
+            beyond / area}
     );
 }
 
@@ -74,17 +93,20 @@ Foam::functionObjects::wallEnergy::wallEnergy(
         dict,
         typeName,
         {"alpha", "mass"},
-        []()
-        {
-            wordList known({"patches", "axis", "thickness"});
-            known.append(vanDerWaals::entries());
-            return known;
-        }()
+        axialFrame::entries(
+            []()
+            {
+                wordList known({"patches", "thickness"});
+                known.append(vanDerWaals::entries());
+                return known;
+            }()
+        )
     ),
     patches_(readPatches(dict, "patches", true)),
-    axis_(readAxis(dict)),
+    frame_(mesh_, dict),
     thickness_(dict.get<scalar>("thickness")),
     law_(dict),
+    told_(false),
     relaxed_(IOobject(
         "points",
         runTime.constant(),

@@ -8,6 +8,7 @@
 #include "emptyPolyPatch.H"
 #include "polyMesh.H"
 #include "primitiveMeshTools.H"
+#include "wedgeFrame.H"
 
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
 
@@ -40,6 +41,33 @@ void Foam::lumenMotionSolver::checkDimensions() const
             << ", which moves points radially, but the mesh is planar (it has"
             << " patches of type empty); valid are a wedge or a"
             << " three-dimensional mesh" << exit(FatalIOError);
+    }
+}
+
+
+void Foam::lumenMotionSolver::checkAxis(const scalar tolerance) const
+{
+    const wedgeFrame wedge(mesh());
+    if (!wedge.valid()) return;
+
+    scalar largest = 0;
+    for (const point& p : points0())
+    {
+        largest = max(largest, mag(wedge.fromAxis(p)));
+    }
+    reduce(largest, maxOp<scalar>());
+
+    const scalar apart =
+        wedgeFrame::apart(mesh(), wedge, motion_->origin(), motion_->axis());
+    if (!(apart <= tolerance * largest))
+    {
+        FatalIOErrorInFunction(coeffDict())
+            << "Entries 'origin' " << motion_->origin() << " m and 'axis' "
+            << motion_->axis() << " of constant/motilityProperties are up to "
+            << apart << " m away from the axis of the wedge mesh, through "
+            << wedge.origin() << " m along " << wedge.axis()
+            << "; valid is that axis, in one of its two directions"
+            << exit(FatalIOError);
     }
 }
 
@@ -179,11 +207,11 @@ Foam::lumenMotionSolver::lumenMotionSolver(
 
     motion_->checkCovers(points0());
 
-    checkWall(
-        coeffs.found("wallTolerance")
-            ? dictionaryCheck::positive(coeffs, "wallTolerance")
-            : 1e-5
-    );
+    const scalar tolerance = coeffs.found("wallTolerance")
+        ? dictionaryCheck::positive(coeffs, "wallTolerance")
+        : 1e-5;
+    checkAxis(tolerance);
+    checkWall(tolerance);
 
     scalar xEnd = -GREAT;
     for (const point& p : points0())

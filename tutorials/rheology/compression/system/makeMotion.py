@@ -1,12 +1,13 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 the bolusFoam developers
-"""Write system/platenDisplacement and system/timeParameters.
+"""Write system/platenDisplacement, timeParameters and meshParameters.
 
 The platen moves such that the Hencky strain rate of the cylinder is that of
 system/caseParameters: height H(t) = H0 exp(-strain(t)), where the strain rises
 at strainRate to its largest value and then falls by unloadStrain at the same
-rate. A negative strain is a tension test.
+rate. A negative strain is a tension test. The mesh is 18 mm in radius, or more
+where the cylinder needs it.
 """
 
 import math
@@ -14,6 +15,7 @@ import re
 from pathlib import Path
 
 HEIGHT = 0.020  # [m]
+RADIUS = 0.010
 POINTS = 2000  # of the table in each direction
 
 
@@ -26,7 +28,7 @@ def read(text: str, name: str) -> float:
 
 
 def main() -> None:
-    """Read system/caseParameters, write the two files."""
+    """Read system/caseParameters, write the three files."""
     text = Path("system/caseParameters").read_text()
     rate = read(text, "strainRate")
     strain = read(text, "strain")
@@ -47,6 +49,13 @@ def main() -> None:
             now = min(s, 2 * turn - s) * math.copysign(1, strain)
             x = HEIGHT * math.expm1(-now)
             out.write(f"({s / rate:.12g} ({x:.15g} 0 0))\n")
+
+    # A slipping cylinder, and some room for one that bulges
+    outer = max(0.018, 1.15 * RADIUS * math.exp(strain / 2))
+    y, z = (1e3 * outer * f(math.radians(2.5)) for f in (math.cos, math.sin))
+    Path("system/meshParameters").write_text(
+        f"outerY {y:.6f};\nouterZ {z:.6f};\nminusOuterZ {-z:.6f};\n"
+    )
 
     Path("system/timeParameters").write_text(
         f"endTime {end / rate:.12g};\n"
