@@ -18,6 +18,7 @@ from bolus_validation.synthetic import (
     write_control,
     write_field,
     write_file,
+    write_laplacian_motion,
     write_motion_fields,
 )
 
@@ -249,7 +250,7 @@ def box(
         case / "constant" / "bolusProperties",
         f'#include "{COMMON}/bolusProperties.{material}"\n',
     )
-    shutil.copy(TUTORIAL / "constant" / "dynamicMeshDict", case / "constant")
+    write_laplacian_motion(case)
     run(case, "blockMesh")
     mesh = read_mesh(case / "constant" / "polyMesh")
 

@@ -36,6 +36,16 @@ _DIMENSIONS = {
 }
 
 
+def write_laplacian_motion(case: Path, of: str = "displacement") -> None:
+    """Motion of the mesh by a stock Laplacian: displacement or velocity."""
+    write_file(
+        case / "constant" / "dynamicMeshDict",
+        "dynamicFvMesh dynamicMotionSolverFvMesh;\n"
+        'motionSolverLibs ("libfvMotionSolvers.so");\n'
+        f"motionSolver {of}Laplacian;\ndiffusivity uniform;\n",
+    )
+
+
 def run(case: Path, *command: str, ok: bool = True) -> str:
     """Run a command in a case; returns what it printed."""
     done = subprocess.run(

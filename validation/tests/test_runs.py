@@ -17,7 +17,11 @@ import numpy as np
 import pytest
 from bolus_validation.results import read_table
 from bolus_validation.specimens import prepare_compression, replace
-from bolus_validation.synthetic import run, run_parallel
+from bolus_validation.synthetic import (
+    run,
+    run_parallel,
+    write_laplacian_motion,
+)
 
 
 @pytest.fixture(scope="module")
@@ -307,13 +311,7 @@ def test_a_finished_run_that_goes_on_says_that_nothing_is_left_to_do(case):
 
 def test_cells_turned_inside_out_by_any_motion_are_one_error(case):
     # displacementLaplacian below half the height: its errors grow
-    (case / "constant" / "dynamicMeshDict").write_text(
-        "FoamFile { version 2.0; format ascii; class dictionary; "
-        "object dynamicMeshDict; }\n"
-        "dynamicFvMesh dynamicMotionSolverFvMesh;\n"
-        'motionSolverLibs ("libfvMotionSolvers.so");\n'
-        "motionSolver displacementLaplacian;\ndiffusivity uniform;\n"
-    )
+    write_laplacian_motion(case)
     replace(
         case / "system" / "caseParameters", r"\nstrain\s[^;]*;", "\nstrain 2;"
     )
@@ -346,13 +344,7 @@ def test_compression_reaches_a_strain_of_one_and_a_half(tmp_path):
 
 def test_a_step_that_is_done_again_moves_the_mesh_from_its_start(case):
     # A stock solver that moves on from where the mesh is
-    (case / "constant" / "dynamicMeshDict").write_text(
-        "FoamFile { version 2.0; format ascii; class dictionary; "
-        "object dynamicMeshDict; }\n"
-        "dynamicFvMesh dynamicMotionSolverFvMesh;\n"
-        'motionSolverLibs ("libfvMotionSolvers.so");\n'
-        "motionSolver velocityLaplacian;\ndiffusivity uniform;\n"
-    )
+    write_laplacian_motion(case, of="velocity")
     text = (case / "0" / "pointDisplacement").read_text()
     text = text.replace("pointDisplacement", "pointMotionU")
     text = text.replace("[0 1 0 0 0 0 0]", "[0 1 -1 0 0 0 0]")

@@ -26,6 +26,7 @@ from bolus_validation.synthetic import (
     write_control,
     write_field,
     write_file,
+    write_laplacian_motion,
     write_motion_fields,
 )
 
@@ -286,13 +287,10 @@ def build(
         f"bolus {{ {solver} }}\ntransport {{ {transport} }}\n",
     )
     write_file(case / "constant" / "bolusProperties", properties)
-    write_file(
-        case / "constant" / "dynamicMeshDict",
-        mesh_motion
-        or "dynamicFvMesh dynamicMotionSolverFvMesh;\n"
-        'motionSolverLibs ("libfvMotionSolvers.so");\n'
-        "motionSolver displacementLaplacian;\ndiffusivity uniform;\n",
-    )
+    if mesh_motion is None:
+        write_laplacian_motion(case)
+    else:
+        write_file(case / "constant" / "dynamicMeshDict", mesh_motion)
     alpha = np.ones(mesh.n_cells)
     if fraction is not None:
         alpha = fraction(mesh.cell_centres)
