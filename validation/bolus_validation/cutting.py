@@ -504,6 +504,8 @@ def write_derived(case: Path, p: Parameters) -> None:
         f"minDeltaT       {1e-4 * step:.12g};\n"
         f"writeInterval   {p.writeTravel / p.speed:.12g};\n"
         f"surfaceInterval {0.1 * p.writeTravel / p.speed:.12g};\n"
+        # A fifth of the tool's way in diameters, far from it less
+        f"strainRate      {0.2 / scale:.12g};\n"
         # The void resists as little at any speed and size
         f"voidZeta        {p.voidStress * scale:.12g};\n"
         f"voidEta         {0.05 * p.voidStress * scale:.12g};\n"

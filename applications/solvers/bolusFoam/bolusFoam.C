@@ -138,7 +138,8 @@ int main(int argc, char* argv[])
         IOobject::NO_WRITE
     ));
     const elastoViscoPlastic law(properties);
-    const voidLaw voids(properties.subOrEmptyDict("void"));
+    const scalar strainRate = stepControl::strainRate(runTime.controlDict());
+    const voidLaw voids(properties.subOrEmptyDict("void"), strainRate);
     const dictionary& solver = mesh.solutionDict().subOrEmptyDict("bolus");
 
     autoPtr<bolusFields> fieldsPtr;
@@ -148,7 +149,7 @@ int main(int argc, char* argv[])
         fieldsPtr.reset(new bolusFields(mesh, law));
     }
     bolusFields& fields = fieldsPtr();
-    coupledSystem system(law, voids, fields.state, solver);
+    coupledSystem system(law, voids, fields.state, strainRate, solver);
     historyTransport transport(
         fields.state,
         law.elastic().K(),
@@ -250,7 +251,7 @@ int main(int argc, char* argv[])
         energy.step(system, runTime.deltaTValue());
 
         control.done(solved.iterations, moved.bulkCourant);
-        report.step(solved, moved);
+        report.step(solved, moved, system.bolusRate());
 
         if (control.write())
         {

@@ -35,7 +35,11 @@ Foam::progress::progress(
     spilled_(books_.lookupOrDefault<scalar>("spilled", 0)),
     alphaMin_(gMin(fields.alpha.primitiveField())),
     alphaMax_(gMax(fields.alpha.primitiveField())),
-    massError_(0)
+    massError_(0),
+    typicalRate_(stepControl::strainRate(time.controlDict())),
+    largestRate_(books_.lookupOrDefault<scalar>("largestRate", 0)),
+    strain_(books_.lookupOrDefault<scalar>("strain", 0)),
+    strainTime_(books_.lookupOrDefault<scalar>("strainTime", 0))
 {
     if (!(initial_ > 0))
     {
@@ -68,7 +72,8 @@ Foam::progress::progress(
 
 void Foam::progress::step(
     const coupledSystem::report& solved,
-    const historyTransport::report& moved
+    const historyTransport::report& moved,
+    const scalar bolusRate
 )
 {
     scalar out = 0;
@@ -116,6 +121,14 @@ void Foam::progress::step(
     const scalar high = gMax(fields_.alpha.primitiveField());
     alphaMin_ = min(alphaMin_, low);
     alphaMax_ = max(alphaMax_, high);
+
+    largestRate_ = max(largestRate_, bolusRate);
+    strain_ += bolusRate * time_.deltaTValue();
+    strainTime_ += time_.deltaTValue();
+    books_.set("largestRate", largestRate_);
+    books_.set("strain", strain_);
+    books_.set("strainTime", strainTime_);
+    if (control_.steps() == 20) tellRate();
 
     // Below 0 only if the transport has gone wrong
     const scalar leastStrain = gMin(fields_.epsilonPEq.primitiveField());
@@ -169,6 +182,24 @@ void Foam::progress::step(
 }
 
 
+void Foam::progress::tellRate() const
+{
+    // What is at rest has no rate
+    const bool slow =
+        strain_ > 1e-6 && largestRate_ < typicalRate_ / 30;
+    const bool fast = strain_ > 30 * typicalRate_ * strainTime_;
+    if (!slow && !fast) return;
+
+    WarningInFunction
+        << "the bolus deforms at " << strain_ / strainTime_
+        << " /s in the mean, at most " << largestRate_
+        << " /s, and the case's strainRate (controlDict) is " << typicalRate_
+        << " /s: tolerances, the void's viscosities and other artificial"
+        << " numbers are made for that one and may be felt. Set strainRate to"
+        << " that of the bolus" << endl;
+}
+
+
 void Foam::progress::summary(const label linearIterations) const
 {
     Info << nl << "Summary" << nl << "    end time         " << time_.value()
@@ -186,6 +217,9 @@ void Foam::progress::summary(const label linearIterations) const
          << "    spilled          " << spilled_ / initial_ << " of the bolus"
          << nl << "    alpha            " << alphaMin_ << " to " << alphaMax_
          << nl;
+    Info << "    strain rate      " << strain_ / max(strainTime_, VSMALL)
+         << " /s mean of the bolus, largest " << largestRate_ << nl;
+    tellRate();
     energy_.report();
     Info << "    clock time       " << clock_.elapsedTime() << " s" << nl
          << endl;

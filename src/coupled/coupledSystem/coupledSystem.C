@@ -17,9 +17,7 @@
 
 #include <functional>
 
-constexpr Foam::scalar Foam::coupledSystem::U0_;
 constexpr Foam::scalar Foam::coupledSystem::P0_;
-constexpr Foam::scalar Foam::coupledSystem::rate0_;
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
@@ -234,6 +232,7 @@ Foam::coupledSystem::coupledSystem(
     const elastoViscoPlastic& law,
     const voidLaw& voids,
     bolusState& state,
+    const scalar strainRate,
     const dictionary& dict
 ) :
     mesh_(state.alpha.mesh()),
@@ -261,8 +260,14 @@ Foam::coupledSystem::coupledSystem(
     q_(space_.nd() * space_.nNodes(), Zero),
     pCell_(mesh_.nCells(), Zero),
     shift_(mesh_.nCells(), Zero),
-    sLast_(mesh_.nCells(), Zero)
+    sLast_(mesh_.nCells(), Zero),
+    U0_(0.01 * strainRate),
+    rate0_(10 * strainRate),
+    bolusRate_(0)
 {
+    // Times of the defaults are made for 0.1/s
+    const scalar slow = 0.1 / strainRate;
+
     entryReader read(dict);
     const entryReader::interval& positive = entryReader::positive;
     const entryReader::interval& nonNegative = entryReader::nonNegative;
@@ -283,13 +288,13 @@ Foam::coupledSystem::coupledSystem(
         "lagFrictionBelow",
         "longest step whose friction may be lagged [s]",
         nonNegative,
-        1e-3
+        1e-3 * slow
     );
     lagTurningBelow_ = read.number(
         "lagTurningBelow",
         "longest step whose turning of the stress may be lagged [s]",
         nonNegative,
-        1e-3
+        1e-3 * slow
     );
     lagTurningSteps_ = read.wholeNumber(
         "lagTurningSteps",
@@ -306,7 +311,10 @@ Foam::coupledSystem::coupledSystem(
     hourglass_ =
         read.number("hourglass", "hourglass control [-]", nonNegative, 0.05);
     overfillTime_ = read.number(
-        "overfillTime", "in which alpha > 1 expands [s]", positive, 0.02
+        "overfillTime",
+        "in which alpha > 1 expands [s]",
+        positive,
+        0.02 * slow
     );
     inertia_ =
         read.number("inertia", "density scale of inertia [-]", nonNegative, 0);
@@ -413,6 +421,8 @@ void Foam::coupledSystem::accept(
     power_ = stepPower();
     elasticEnergy_.setSize(mesh_.nCells());
     const boolList held(heldNodes());
+    scalar bolus = 0;
+    bolusRate_ = 0;
 
     forAll(pCell_, c)
     {
@@ -421,6 +431,9 @@ void Foam::coupledSystem::accept(
         {
             evaluate(c, r);
             internalForce(c, r, R);
+            bolus += a_[c] * space_.V()[c];
+            bolusRate_ += a_[c] * space_.V()[c]
+                * std::sqrt(2.0 / 3) * mag(dev(symm(r.gradU)));
             bookPower(c, r, R, held);
             forAll(R, i)
             {
@@ -495,6 +508,9 @@ void Foam::coupledSystem::accept(
         }
         state_.p[c] = pCell_[c];
     }
+    reduce(bolus, sumOp<scalar>());
+    reduce(bolusRate_, sumOp<scalar>());
+    bolusRate_ /= max(bolus, VSMALL);
     state_.U.correctBoundaryConditions();
     state_.p.correctBoundaryConditions();
 

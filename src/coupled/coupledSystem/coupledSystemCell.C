@@ -194,7 +194,7 @@ void Foam::coupledSystem::solvePressure(const label c)
     for (label i = 0; i < 50; ++i)
     {
         evaluate(c, r);
-        if (mag(r.residual) < 1e-3 * tolerance_) break;
+        if (mag(r.residual) < 1e-3 * tolerance_ * rate0_) break;
 
         // The residual grows with the pressure
         (r.residual < 0 ? lower : upper) = pCell_[c];

@@ -176,7 +176,7 @@ void Foam::coupledSystem::assemble(Vec f, condensedTangent* J) const
             rows.append(dof % nd < space_.nFixed()[node] ? -1 : cols.last());
             rowScale.append(1 / (P0_ * space_.nodeArea()[node]));
         }
-        rowScale.append(weight_[c]);
+        rowScale.append(weight_[c] / rate0_);
 
         if (f)
         {
@@ -195,7 +195,7 @@ void Foam::coupledSystem::assemble(Vec f, condensedTangent* J) const
                 }
             }
             J->add(c, tangent.J, rows, cols);
-            J->extrapolate(c, weight_[c] * tangent.excess);
+            J->extrapolate(c, weight_[c] / rate0_ * tangent.excess);
         }
     }
 

@@ -66,12 +66,13 @@ void Foam::stepControl::read()
     // Others read this dictionary too: only what looks like one of ours can be
     // told to be misspelt
     const wordList own(
-        {"maxDeltaT", "minDeltaT", "maxCourant", "easyIterations"}
+        {"maxDeltaT", "minDeltaT", "maxCourant", "easyIterations", "strainRate"}
     );
     for (const word& key : dict.toc())
     {
         const word begin(key.substr(0, 3));
-        const bool similar = begin == "max" || begin == "min" || begin == "eas";
+        const bool similar = begin == "max" || begin == "min" || begin == "eas"
+            || key.substr(0, 6) == "strain";
         if (similar && !own.found(key))
         {
             FatalIOErrorInFunction(dict)
@@ -80,8 +81,11 @@ void Foam::stepControl::read()
         }
     }
 
-    const scalar maxDeltaT = dict.lookupOrDefault<scalar>("maxDeltaT", 0.05);
-    const scalar minDeltaT = dict.lookupOrDefault<scalar>("minDeltaT", 1e-5);
+    const scalar slow = 0.1 / strainRate(dict);
+    const scalar maxDeltaT =
+        dict.lookupOrDefault<scalar>("maxDeltaT", 0.05 * slow);
+    const scalar minDeltaT =
+        dict.lookupOrDefault<scalar>("minDeltaT", 1e-5 * slow);
     const scalar maxCourant = dict.lookupOrDefault<scalar>("maxCourant", 1);
     const label easyIterations =
         dict.lookupOrDefault<label>("easyIterations", 8);
@@ -154,6 +158,14 @@ void Foam::stepControl::advance(const scalar deltaT)
     {
         static_cast<TimeState&>(time_) = quietTimeState(time_);
     }
+}
+
+
+Foam::scalar Foam::stepControl::strainRate(const dictionary& controlDict)
+{
+    const scalar rate = controlDict.lookupOrDefault<scalar>("strainRate", 0.1);
+    requirePositive(controlDict, "strainRate", rate);
+    return rate;
 }
 
 

@@ -4,15 +4,21 @@
 #include "voidLaw.H"
 #include "entryReader.H"
 
-Foam::voidLaw::voidLaw(const dictionary& dict)
+Foam::voidLaw::voidLaw(const dictionary& dict, const scalar strainRate)
 {
+    // Viscosities of the defaults are made for 0.1/s
+    const scalar slow = 0.1 / strainRate;
+
     entryReader read(dict);
     const entryReader::interval& positive = entryReader::positive;
 
-    zeta_ = read.number("zeta", "volumetric viscosity [Pa s]", positive, 20);
-    eta_ = read.number("eta", "shear viscosity [Pa s]", positive, 1);
+    zeta_ = read.number("zeta", "volumetric viscosity [Pa s]", positive, 20 * slow);
+    eta_ = read.number("eta", "shear viscosity [Pa s]", positive, slow);
     etaDamaged_ = read.number(
-        "etaDamaged", "shear viscosity of damaged bolus [Pa s]", positive, 20
+        "etaDamaged",
+        "shear viscosity of damaged bolus [Pa s]",
+        positive,
+        20 * slow
     );
     seal_ = read.number(
         "seal",

@@ -61,6 +61,7 @@ def main() -> None:
         f"endTime {end / rate:.12g};\n"
         f"deltaT {read(text, 'strainStep') / rate:.12g};\n"
         f"writeInterval {read(text, 'writeStrain') / rate:.12g};\n"
+        f"strainRate {rate:.12g};\n"
     )
 
 
