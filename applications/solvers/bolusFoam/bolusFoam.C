@@ -138,8 +138,8 @@ int main(int argc, char* argv[])
         IOobject::NO_WRITE
     ));
     const elastoViscoPlastic law(properties);
-    const scalar strainRate = stepControl::strainRate(runTime.controlDict());
-    const voidLaw voids(properties.subOrEmptyDict("void"), strainRate);
+    const caseScales scales(runTime.controlDict(), law);
+    const voidLaw voids(properties.subOrEmptyDict("void"), scales);
     const dictionary& solver = mesh.solutionDict().subOrEmptyDict("bolus");
 
     autoPtr<bolusFields> fieldsPtr;
@@ -149,7 +149,7 @@ int main(int argc, char* argv[])
         fieldsPtr.reset(new bolusFields(mesh, law));
     }
     bolusFields& fields = fieldsPtr();
-    coupledSystem system(law, voids, fields.state, strainRate, solver);
+    coupledSystem system(law, voids, fields.state, scales, solver);
     historyTransport transport(
         fields.state,
         law.elastic().K(),

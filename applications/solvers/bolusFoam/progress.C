@@ -36,7 +36,7 @@ Foam::progress::progress(
     alphaMin_(gMin(fields.alpha.primitiveField())),
     alphaMax_(gMax(fields.alpha.primitiveField())),
     massError_(0),
-    typicalRate_(stepControl::strainRate(time.controlDict())),
+    typicalRate_(caseScales::readStrainRate(time.controlDict())),
     largestRate_(books_.lookupOrDefault<scalar>("largestRate", 0)),
     strain_(books_.lookupOrDefault<scalar>("strain", 0)),
     strainTime_(books_.lookupOrDefault<scalar>("strainTime", 0))
@@ -185,8 +185,7 @@ void Foam::progress::step(
 void Foam::progress::tellRate() const
 {
     // What is at rest has no rate
-    const bool slow =
-        strain_ > 1e-6 && largestRate_ < typicalRate_ / 30;
+    const bool slow = strain_ > 1e-6 && largestRate_ < typicalRate_ / 30;
     const bool fast = strain_ > 30 * typicalRate_ * strainTime_;
     if (!slow && !fast) return;
 

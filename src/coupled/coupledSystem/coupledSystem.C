@@ -17,8 +17,6 @@
 
 #include <functional>
 
-constexpr Foam::scalar Foam::coupledSystem::P0_;
-
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
 bool Foam::coupledSystem::isSymmetry(const polyPatch& pp)
@@ -232,7 +230,7 @@ Foam::coupledSystem::coupledSystem(
     const elastoViscoPlastic& law,
     const voidLaw& voids,
     bolusState& state,
-    const scalar strainRate,
+    const caseScales& scales,
     const dictionary& dict
 ) :
     mesh_(state.alpha.mesh()),
@@ -261,12 +259,11 @@ Foam::coupledSystem::coupledSystem(
     pCell_(mesh_.nCells(), Zero),
     shift_(mesh_.nCells(), Zero),
     sLast_(mesh_.nCells(), Zero),
-    U0_(0.01 * strainRate),
-    rate0_(10 * strainRate),
+    U0_(0.01 * scales.strainRate()),
+    P0_(1e4 * scales.stressRatio()),
+    rate0_(10 * scales.strainRate()),
     bolusRate_(0)
 {
-    // Times of the defaults are made for 0.1/s
-    const scalar slow = 0.1 / strainRate;
 
     entryReader read(dict);
     const entryReader::interval& positive = entryReader::positive;
@@ -288,13 +285,13 @@ Foam::coupledSystem::coupledSystem(
         "lagFrictionBelow",
         "longest step whose friction may be lagged [s]",
         nonNegative,
-        1e-3 * slow
+        1e-3 * scales.time()
     );
     lagTurningBelow_ = read.number(
         "lagTurningBelow",
         "longest step whose turning of the stress may be lagged [s]",
         nonNegative,
-        1e-3 * slow
+        1e-3 * scales.time()
     );
     lagTurningSteps_ = read.wholeNumber(
         "lagTurningSteps",
@@ -314,7 +311,7 @@ Foam::coupledSystem::coupledSystem(
         "overfillTime",
         "in which alpha > 1 expands [s]",
         positive,
-        0.02 * slow
+        0.02 * scales.time()
     );
     inertia_ =
         read.number("inertia", "density scale of inertia [-]", nonNegative, 0);
@@ -322,7 +319,7 @@ Foam::coupledSystem::coupledSystem(
         "partingTension",
         "tension at which a wall cell parts from the wall [Pa]",
         nonNegative,
-        0.1
+        0.1 * scales.stressRatio()
     );
     const entryReader::interval fraction = {0, true, 1, true};
     eliminateRoom_ = read.number(
@@ -432,8 +429,8 @@ void Foam::coupledSystem::accept(
             evaluate(c, r);
             internalForce(c, r, R);
             bolus += a_[c] * space_.V()[c];
-            bolusRate_ += a_[c] * space_.V()[c]
-                * std::sqrt(2.0 / 3) * mag(dev(symm(r.gradU)));
+            bolusRate_ += a_[c] * space_.V()[c] * std::sqrt(2.0 / 3)
+                * mag(dev(symm(r.gradU)));
             bookPower(c, r, R, held);
             forAll(R, i)
             {

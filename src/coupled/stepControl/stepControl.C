@@ -2,6 +2,7 @@
 // Copyright (C) 2026 the bolusFoam developers
 
 #include "stepControl.H"
+#include "caseScales.H"
 
 namespace Foam
 {
@@ -81,7 +82,7 @@ void Foam::stepControl::read()
         }
     }
 
-    const scalar slow = 0.1 / strainRate(dict);
+    const scalar slow = 0.1 / caseScales::readStrainRate(dict);
     const scalar maxDeltaT =
         dict.lookupOrDefault<scalar>("maxDeltaT", 0.05 * slow);
     const scalar minDeltaT =
@@ -158,14 +159,6 @@ void Foam::stepControl::advance(const scalar deltaT)
     {
         static_cast<TimeState&>(time_) = quietTimeState(time_);
     }
-}
-
-
-Foam::scalar Foam::stepControl::strainRate(const dictionary& controlDict)
-{
-    const scalar rate = controlDict.lookupOrDefault<scalar>("strainRate", 0.1);
-    requirePositive(controlDict, "strainRate", rate);
-    return rate;
 }
 
 

@@ -4,22 +4,46 @@
 #include "voidLaw.H"
 #include "entryReader.H"
 
-Foam::voidLaw::voidLaw(const dictionary& dict, const scalar strainRate)
+Foam::voidLaw::voidLaw(const dictionary& dict, const caseScales& scales)
 {
-    // Viscosities of the defaults are made for 0.1/s
-    const scalar slow = 0.1 / strainRate;
-
     entryReader read(dict);
     const entryReader::interval& positive = entryReader::positive;
 
-    zeta_ = read.number("zeta", "volumetric viscosity [Pa s]", positive, 20 * slow);
-    eta_ = read.number("eta", "shear viscosity [Pa s]", positive, slow);
-    etaDamaged_ = read.number(
-        "etaDamaged",
-        "shear viscosity of damaged bolus [Pa s]",
-        positive,
-        20 * slow
-    );
+    // What the entries are made for; without it they are as they stand
+    scalar stress = 1;
+    scalar viscosity = 1;
+    if (read.has("madeFor"))
+    {
+        const dictionary& sub = entryReader::subDictionary(
+            dict, "madeFor", "stress and strainRate that the entries are for"
+        );
+        entryReader of(sub);
+        const caseScales made(
+            of.number("strainRate", "that the entries are for [1/s]", positive),
+            of.number("stress", "that the entries are for [Pa]", positive)
+        );
+        of.rejectOthers();
+        stress = scales.stress() / made.stress();
+        viscosity = stress * made.strainRate() / scales.strainRate();
+    }
+    const scalar s = scales.stressRatio() / stress;
+    const scalar v = scales.viscosity() / viscosity;
+
+    zeta_ = viscosity
+        * read.number("zeta", "volumetric viscosity [Pa s]", positive, 20 * v);
+    eta_ =
+        viscosity * read.number("eta", "shear viscosity [Pa s]", positive, v);
+    etaDamaged_ = viscosity
+        * read.number(
+            "etaDamaged",
+            "shear viscosity of damaged bolus [Pa s]",
+            positive,
+            20 * v
+        );
+    delta_ = stress
+        * read.number(
+            "delta", "rounding of the contact's corner [Pa]", positive, 2 * s
+        );
     seal_ = read.number(
         "seal",
         "void fraction that bolus tolerates [-]",
@@ -31,9 +55,6 @@ Foam::voidLaw::voidLaw(const dictionary& dict, const scalar strainRate)
         "largest part of the void closed in a step [-]",
         {0, false, 1, true},
         0.5
-    );
-    delta_ = read.number(
-        "delta", "rounding of the contact's corner [Pa]", positive, 2
     );
     cohesion_ = read.number(
         "cohesion",
