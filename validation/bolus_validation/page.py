@@ -17,7 +17,6 @@ import base64
 import html
 import json
 import re
-import subprocess
 import sys
 from dataclasses import dataclass
 from pathlib import Path
@@ -29,7 +28,8 @@ from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize
 
 from bolus_validation import plots
-from bolus_validation.fields import Case, FoamFileError
+from bolus_validation.fields import Case
+from bolus_validation.foam_files import FoamFileError, expanded
 from bolus_validation.results import (
     PAPER_TIMES,
     TIME_TOLERANCE,
@@ -69,48 +69,15 @@ class Shown:
 # --- what is told of a case -----------------------------
 
 
-def entries(text: str) -> dict[str, str]:
-    """Entries of a dictionary as foamDictionary prints it, by their path."""
-    found, path, held = {}, [], ""
-    text = re.sub(r"/\*.*?\*/|//[^\n]*", "", text, flags=re.DOTALL)
-    for token in re.findall(r'"[^"]*"|[{};]|[^{};"]+', text):
-        if token == "{":
-            path.append(" ".join(held.split()))
-            held = ""
-        elif token == "}":
-            if path:
-                path.pop()
-            held = ""
-        elif token == ";":
-            words = held.split(None, 1)
-            if words:
-                value = " ".join(words[1].split()) if len(words) > 1 else ""
-                found[".".join([*path, words[0]])] = value
-            held = ""
-        else:
-            held += token
-    return {
-        name: value
-        for name, value in found.items()
-        if not name.startswith("FoamFile")
-    }
-
-
 def read_inputs(path: Path) -> dict[str, dict[str, str]]:
     """The dictionaries of a case, includes and macros expanded."""
     found = {}
     for name in INPUTS:
         if (path / name).is_file():
-            done = subprocess.run(
-                ["foamDictionary", "-expand", name],
-                cwd=path,
-                capture_output=True,
-                text=True,
-            )
-            if done.returncode == 0:
-                found[name] = entries(done.stdout)
-            else:
-                found[name] = {"(not readable)": done.stderr.strip()[-300:]}
+            try:
+                found[name] = expanded(path, name)
+            except FoamFileError as error:
+                found[name] = {"(not readable)": str(error)}
     return found
 
 

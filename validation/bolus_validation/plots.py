@@ -38,7 +38,8 @@ from matplotlib.cm import ScalarMappable  # noqa: E402
 from matplotlib.collections import LineCollection, PolyCollection  # noqa: E402
 from matplotlib.colors import Normalize  # noqa: E402
 
-from bolus_validation.fields import Case, FoamFileError, Section  # noqa: E402
+from bolus_validation.fields import Case, NoSection, Section  # noqa: E402
+from bolus_validation.foam_files import FoamFileError, stored  # noqa: E402
 from bolus_validation.results import (  # noqa: E402
     PAPER_TIMES,
     TIME_TOLERANCE,
@@ -464,10 +465,11 @@ def draw(paths, times=PAPER_TIMES, folder: Path | None = None) -> list[Path]:
     folder.mkdir(parents=True, exist_ok=True)
 
     made = []
+    flat = stored(first.path / "constant" / "polyMesh" / "owner") is not None
     try:
-        first.mesh(min(first.times, default=0.0)).section  # noqa: B018
-        flat = True
-    except (ValueError, FoamFileError):
+        if flat:
+            first.mesh(min(first.times, default=0.0)).section  # noqa: B018
+    except NoSection:
         flat = False
     if flat:
         for quantity in BOLUS_FIELDS:

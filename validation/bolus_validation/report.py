@@ -17,7 +17,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
-from bolus_validation.fields import FoamFileError
+from bolus_validation.foam_files import FoamFileError
 from bolus_validation.results import LOADED, Table, optional_table
 
 BEGIN = "<!-- comparison: begin, made by scripts/results: do not edit -->"

@@ -13,7 +13,7 @@ import re
 import sys
 from pathlib import Path
 
-from bolus_validation.fields import FoamFileError
+from bolus_validation.foam_files import FoamFileError
 
 # (title, path of the number in results.json, factor, unit shown, format)
 _LINES = (
