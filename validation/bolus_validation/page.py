@@ -30,6 +30,7 @@ from matplotlib.colors import Normalize
 from bolus_validation import plots
 from bolus_validation.fields import Case
 from bolus_validation.foam_files import FoamFileError, expanded
+from bolus_validation.locking import alone_in
 from bolus_validation.results import (
     PAPER_TIMES,
     TIME_TOLERANCE,
@@ -149,8 +150,8 @@ def warn(path: Path, results: dict, inputs: dict) -> list[str]:
     return found
 
 
-def show(path: Path) -> Shown:
-    """All that the page tells of a case, but for its pictures."""
+def check(path: Path) -> None:
+    """Raise FoamFileError where there is no run to tell of."""
     if not (path / "system" / "controlDict").is_file():
         raise FoamFileError(f"{path}: not a case (no system/controlDict)")
     if not (path / "postProcessing").is_dir():
@@ -159,6 +160,11 @@ def show(path: Path) -> Shown:
         raise FoamFileError(
             f"{path}: no results (no postProcessing); ./Allrun run it first"
         )
+
+
+def show(path: Path) -> Shown:
+    """All that the page tells of a case, but for its pictures."""
+    check(path)
     results = collect(path)
     inputs = read_inputs(path)
     return Shown(
@@ -467,7 +473,12 @@ def main(arguments=None) -> int:
     )
     options = parser.parse_args(arguments)
     try:
-        print(write(options.cases, options.out))
+        folder = options.out or options.cases[0] / "report"
+        for case in options.cases:
+            check(case)
+        folder.mkdir(parents=True, exist_ok=True)
+        with alone_in(folder):
+            print(write(options.cases, folder))
     except (FoamFileError, OSError) as error:
         print(f"report: {error}", file=sys.stderr)
         return 1

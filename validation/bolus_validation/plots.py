@@ -40,6 +40,7 @@ from matplotlib.colors import Normalize  # noqa: E402
 
 from bolus_validation.fields import Case, NoSection, Section  # noqa: E402
 from bolus_validation.foam_files import FoamFileError, stored  # noqa: E402
+from bolus_validation.locking import alone_in  # noqa: E402
 from bolus_validation.results import (  # noqa: E402
     PAPER_TIMES,
     TIME_TOLERANCE,
@@ -502,9 +503,13 @@ def main(arguments=None) -> int:
     parser.add_argument("--out", type=Path, help="folder (CASE/pictures)")
     options = parser.parse_args(arguments)
     try:
-        for path in draw(options.cases, options.times, options.out):
-            print(path)
-    except FoamFileError as error:
+        Case(options.cases[0])
+        if options.out:
+            options.out.mkdir(parents=True, exist_ok=True)
+        with alone_in(options.out or options.cases[0]):
+            for path in draw(options.cases, options.times, options.out):
+                print(path)
+    except (FoamFileError, OSError) as error:
         print(f"plots: {error}", file=sys.stderr)
         return 1
     return 0

@@ -20,6 +20,7 @@ import numpy as np
 
 from bolus_validation.fields import Case
 from bolus_validation.foam_files import FoamFileError, read_text, stored
+from bolus_validation.locking import alone_in
 from bolus_validation.profiling import phases
 
 # The ten times [s] of the paper's Fig. 8
@@ -510,8 +511,10 @@ def main(arguments=None) -> int:
     )
     options = parser.parse_args(arguments)
     try:
-        print(write_json(options.case, reference=options.reference))
-    except FoamFileError as error:
+        Case(options.case)
+        with alone_in(options.case):
+            print(write_json(options.case, reference=options.reference))
+    except (FoamFileError, OSError) as error:
         print(f"results: {error}", file=sys.stderr)
         return 1
     return 0
