@@ -75,8 +75,10 @@ def test_a_folder_of_which_the_caller_has_the_lock_is_free(
 ):
     hold(tmp_path)
     monkeypatch.setenv("BOLUSFOAM_LOCK", str(tmp_path.resolve()))
-    with alone_in(tmp_path):
-        pass
+    (tmp_path / "link").symlink_to(tmp_path)
+    for way in (tmp_path, tmp_path / "link"):
+        with alone_in(way):
+            pass
     # That folder only
     (tmp_path / "other").mkdir()
     hold(tmp_path / "other")
