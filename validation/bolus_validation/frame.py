@@ -4,9 +4,10 @@
 
 The axis of a wedge is where its two planes meet. Which way it points, and
 where on it x = 0 is, says constant/motilityProperties (axis, origin; see
-lumenMotion.H). Without that file it points along the coordinate in which it
-rises most, and x = 0 is its point nearest to (0 0 0): along a coordinate axis x
-is that coordinate.
+lumenMotion.H). Without that file it rises along the first coordinate along which
+it goes more than half as far as along any, and x = 0 is its point nearest to
+(0 0 0): along a coordinate axis x is that coordinate. The function objects do
+the same.
 
 Other meshes have the axis of motilityProperties, or else that of x (in a plane
 mesh across x: that of y).
@@ -99,10 +100,10 @@ def declared_frame(case: Path) -> Frame | None:
     return Frame(_read_vector(case, "origin", (0, 0, 0)), axis / length)
 
 
-def _largest_positive(vector: np.ndarray) -> np.ndarray:
-    """A vector, or its opposite: its largest component is positive."""
-    # Of components alike but for rounding the first one
-    large = np.abs(vector) > 0.999 * np.abs(vector).max()
+def _upward(vector: np.ndarray) -> np.ndarray:
+    """A vector, or its opposite: the first of its large components is
+    positive, as in src/space/wedgeFrame."""
+    large = np.abs(vector) > 0.5 * np.abs(vector).max()
     return vector * np.sign(vector[large.argmax()])
 
 
@@ -137,7 +138,7 @@ def wedge_frame(planes, size: float, declared: Frame | None) -> Frame:
             return frame
     (n0, p0), (n1, p1) = planes
     axis = np.cross(n0, n1)
-    axis = _largest_positive(axis / np.linalg.norm(axis))
+    axis = _upward(axis / np.linalg.norm(axis))
     # In both planes, and nearest to (0 0 0)
     origin = np.linalg.solve([n0, n1, axis], [n0 @ p0, n1 @ p1, 0.0])
     if declared:
@@ -169,7 +170,6 @@ def other_frame(normal: np.ndarray | None, declared: Frame | None) -> Frame:
 
 
 def plane_normal(areas: np.ndarray) -> np.ndarray:
-    """The unit normal of a plane mesh from the areas (n, 3) of its two sides,
-    whose largest component is positive."""
+    """The unit normal of a plane mesh from the areas (n, 3) of its two sides."""
     normal = np.linalg.eigh(areas.T @ areas)[1][:, -1]
-    return _largest_positive(normal)
+    return _upward(normal)

@@ -26,6 +26,7 @@ FRAMES = {
     "hardly aside": ((1, 0, 0), (0, 1e-9, 0)),
     "diagonal": (DIAGONAL, (0, 0, 0)),
     "oblique": (OBLIQUE, (0.5, -0.2, 0.1)),
+    "most along -y": (np.array([0.6, -0.8, 0]), (0, 0, 0)),
 }
 
 
@@ -122,7 +123,7 @@ def test_sections_and_pictures_do_not_depend_on_the_axis(
     assert differs.mean() < 1e-3
 
 
-@pytest.mark.parametrize("name", ["z", "aside", "diagonal"])
+@pytest.mark.parametrize("name", ["z", "aside", "diagonal", "most along -y"])
 def test_without_motility_the_wedge_tells_the_axis(straight, tmp_path, name):
     case, expected = straight
     turned = moved(case, tmp_path / "turned", *FRAMES[name], declared=False)
