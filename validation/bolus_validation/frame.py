@@ -4,10 +4,10 @@
 
 The axis of a wedge is where its two planes meet. Which way it points, and
 where on it x = 0 is, says constant/motilityProperties (axis, origin; see
-lumenMotion.H). Without that file it rises along the first coordinate along which
-it goes more than half as far as along any, and x = 0 is its point nearest to
-(0 0 0): along a coordinate axis x is that coordinate. The function objects do
-the same.
+lumenMotion.H). Without that file it rises along the first coordinate along
+which it goes more than half as far as along any, and x = 0 is its point nearest
+to (0 0 0): along a coordinate axis x is that coordinate. The function objects
+do the same.
 
 Other meshes have the axis of motilityProperties, or else that of x (in a plane
 mesh across x: that of y).
@@ -170,6 +170,6 @@ def other_frame(normal: np.ndarray | None, declared: Frame | None) -> Frame:
 
 
 def plane_normal(areas: np.ndarray) -> np.ndarray:
-    """The unit normal of a plane mesh from the areas (n, 3) of its two sides."""
+    """Unit normal of a plane mesh from the areas (n, 3) of its two sides."""
     normal = np.linalg.eigh(areas.T @ areas)[1][:, -1]
     return _upward(normal)
