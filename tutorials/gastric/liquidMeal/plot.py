@@ -20,6 +20,9 @@ def main():
     """Measure at the written times; draw the time of the fastest jet."""
     case = Case(".")
     times = [t for t in case.times if t > 0 and case.has(t, "gradU")]
+    if not times:
+        print("no time after the start was written: nothing to measure")
+        return
     speeds = {
         t: case.mesh(t).frame.along(case.field(t, "U")) for t in times
     }
