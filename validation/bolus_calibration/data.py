@@ -13,7 +13,7 @@ with their units, in any order; a note names the columns that are not used:
     engineeringStress [kPa]                force over first section; Pa, MPa
     trueStress [kPa]                       force over present section
     shearStrain [-], shearStress [kPa]     rim of the plates
-    rate [1/s]                             of that strain; also 1/min
+    rate [1/s]                             of that strain; also %/s, 1/min
     specimen, segment                      text, without unit
 
 Words may stand apart, in any order: "True strain". Nominal is engineering;
@@ -218,19 +218,23 @@ def _taken(data: dict, units: dict, name: str) -> list[str]:
     return remarks
 
 
-def _given_rate(data: dict, notes: dict, where: str) -> float | None:
+def _given_rate(data: dict, notes: dict, loading, where: str) -> float | None:
     """Rate that the file tells, of the strain as it is given [1/s]."""
-    given = [*np.unique(np.abs(data.get("rate", [])))]
-    if "rate" in notes:
-        given.append(notes["rate"])
-    if not given:
+    told = [notes["rate"]] if "rate" in notes else []
+    if "rate" in data:
+        rates = np.abs(data["rate"][loading])
+        # A rheometer's own rates waver
+        told += [np.median(rates)]
+        if "time" not in data:
+            told += [rates.min(), rates.max()]
+    if not told:
         return None
-    if max(given) > 1.01 * min(given):
+    if max(told) > 1.1 * min(told):
         raise DataError(
-            f"{where}: rates from {min(given):.3g} to {max(given):.3g}/s; "
+            f"{where}: rates from {min(told):.3g} to {max(told):.3g}/s; "
             "valid is one rate of the loading, or a column time [s]"
         )
-    return float(given[0])
+    return float(told[0])
 
 
 def _segments(strain, labels, where) -> np.ndarray:
@@ -293,7 +297,7 @@ def _curve(name, data, units, labels, notes, where) -> Curve:
             f"{name}: the first row is at {100 * strain[0] / strain.max():.0f} "
             "% of the largest strain; taken as since the specimen was unloaded"
         )
-    told = _given_rate(data, notes, where)
+    told = _given_rate(data, notes, loading, where)
     if "time" in data:
         time = data["time"] - data["time"][0]
         if np.ptp(time[loading]) <= 0:

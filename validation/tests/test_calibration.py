@@ -274,6 +274,18 @@ def test_a_rate_without_time_is_that_of_the_strain_as_given(tmp_path, strain):
     assert (said in "\n".join(curve.remarks)) == (strain == "engineering")
 
 
+def test_rates_that_waver_do_not_matter_beside_time(tmp_path):
+    path = tmp_path / "waver.csv"
+    path.write_text(
+        "time [s],Strain rate (%/s),True strain [-],True stress [kPa]\n"
+        + "".join(f"{t},{10 + t % 3},{0.1 * t},{t}\n" for t in range(1, 11))
+        # Held
+        + "".join(f"{t},0,1,{20 - t}\n" for t in range(11, 18))
+    )
+    (curve,) = read(path)
+    assert curve.rate == pytest.approx(0.1)
+
+
 def test_what_looks_odd_is_taken_as_it_is_and_said(tmp_path):
     path = tmp_path / "odd.csv"
     path.write_text(
