@@ -4,9 +4,10 @@
 
 import argparse
 import re
-import shutil
 import sys
 from pathlib import Path
+
+from bolus_validation.locking import alone_in
 
 from bolus_calibration import output
 from bolus_calibration.data import DataError, read
@@ -14,6 +15,8 @@ from bolus_calibration.fit import CONFIDENCE, LAWS, fit_all
 
 ROOT = Path(__file__).parents[2]
 COMMON = ROOT / "tutorials" / "common"
+# Of the user's own: no part of the repository
+INSTALLED = ROOT / "laws"
 
 
 def arguments(given=None) -> argparse.Namespace:
@@ -36,7 +39,7 @@ def arguments(given=None) -> argparse.Namespace:
     parser.add_argument(
         "-install",
         action="store_true",
-        help="put the law into tutorials/common, for -set law=NAME",
+        help="put the law into the folder laws, for -set law=NAME",
     )
     parser.add_argument("-rho", type=float, default=1100, help="[kg/m3]")
     parser.add_argument("-nu", type=float, default=0.49, help="[-]")
@@ -63,17 +66,26 @@ def arguments(given=None) -> argparse.Namespace:
 
 def calibrate(options: argparse.Namespace) -> None:
     """Read, fit, write."""
-    installed = COMMON / f"bolusProperties.{options.name}"
-    if options.install and installed.exists():
-        raise DataError(
-            f"-install: there is a {installed}; take another -name, or "
-            "remove it"
-        )
+    name = f"bolusProperties.{options.name}"
+    for folder in (INSTALLED, COMMON) if options.install else ():
+        if (folder / name).exists():
+            raise DataError(
+                f"-install: there is a {folder / name}; take another -name"
+                + (", or remove it" if folder == INSTALLED else "")
+            )
     curves = [curve for path in options.data for curve in read(path)]
     remarks = [remark for curve in curves for remark in curve.remarks]
     fits = fit_all(curves, options.law, options.scatter)
-    best = fits[0]
+    remarks += fit_remarks(curves, fits)
+    options.out.mkdir(parents=True, exist_ok=True)
+    with alone_in(options.out):
+        write(options, curves, fits, remarks)
 
+
+def fit_remarks(curves: list, fits: list) -> list[str]:
+    """What to know of the fits."""
+    best = fits[0]
+    remarks = []
     if len(fits) == 1:
         remarks.append(
             "one rate and no relaxation: how the stress depends on the rate "
@@ -91,6 +103,12 @@ def calibrate(options: argparse.Namespace) -> None:
             "more specimens, or -scatter, would tell"
         )
 
+    return remarks
+
+
+def write(options, curves: list, fits: list, remarks: list[str]) -> None:
+    """Write the law and what is told of it; print it."""
+    best = fits[0]
     text = output.dictionary(
         best,
         options.name,
@@ -98,7 +116,6 @@ def calibrate(options: argparse.Namespace) -> None:
         options.rho,
         options.nu,
     )
-    options.out.mkdir(parents=True, exist_ok=True)
     target = options.out / f"bolusProperties.{options.name}"
     target.write_text(text)
     tables = output.rheometer(curves, text, options.out)
@@ -122,7 +139,10 @@ def calibrate(options: argparse.Namespace) -> None:
     for name in (target.name, "calibration.png", "calibration.json"):
         print(f"    {options.out / name}")
     if options.install:
-        shutil.copy(target, installed)
+        INSTALLED.mkdir(exist_ok=True)
+        (INSTALLED / target.name).write_text(
+            text + '\n// See tutorials/common/law\nlawFolder       "laws";\n'
+        )
         print(f"  installed: ./Allrun run CASE -set law={options.name}")
     else:
         print(
@@ -137,7 +157,7 @@ def main(given=None) -> int:
     options = arguments(given)
     try:
         calibrate(options)
-    except (DataError, RuntimeError) as error:
+    except (DataError, RuntimeError, OSError) as error:
         print(f"calibrate: {error}", file=sys.stderr)
         return 1
     return 0

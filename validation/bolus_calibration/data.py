@@ -4,17 +4,22 @@
 
 A file holds one specimen, or several told apart by a column "specimen".
 Separators are commas, semicolons or tabs. The header row names the columns
-with their units, in any order; columns with other names are ignored:
+with their units, in any order; a note names the columns that are not used:
 
     time [s]                               also ms, min
     displacement [mm], force [N]           also m, um; mN, kN, gf
     engineeringStrain [-]                  also %: 1 - H/H0
-    strain [-]                             logarithmic
+    trueStrain [-]                         |ln(H/H0)|
     engineeringStress [kPa]                force over first section; Pa, MPa
-    stress [kPa]                           force over present section
+    trueStress [kPa]                       force over present section
     shearStrain [-], shearStress [kPa]     rim of the plates
-    rate [1/s]                             of strain or shearStrain; also 1/min
+    rate [1/s]                             of that strain; also %/s, 1/min
     specimen, segment                      text, without unit
+
+Words may stand apart, in any order: "True strain". Nominal is engineering;
+logarithmic, Hencky and natural strain, and Cauchy stress, are true. A strain or
+stress of which the header says neither is taken as engineering, and a note says
+so. The rate is that of the strain as it is given, of displacement over height.
 
 Lines "# name: value unit" before the header hold for the whole file:
 
@@ -35,49 +40,40 @@ What is done with odd data:
 - Rows out of order in time are sorted, and said so; without time, rows whose
   strain goes back are an unloading if there is one turning point, else they
   are sorted.
-- An empty row is skipped. A value that is not a finite number is an error.
+- An empty row is skipped. A value that is not a finite number is an error, and
+  a row of more or fewer values than columns (decimal commas).
+- A true strain beyond 4 or a shear strain beyond 20, which would be a
+  percentage, is an error; a percentage that stays below 2 is noted.
+- Two rates, areas or notes that contradict each other are an error.
 - Loading, relaxation (the strain stays within 0.2 % of the largest) and
   unloading are found from the strain; a column segment overrides it.
 - Without time, time follows from the rate. A relaxation needs time.
+- A first row beyond a fifth of the largest strain is noted: the strain is
+  taken as that since the specimen was unloaded.
 - Fewer than 8 rows of a specimen are an error.
 """
 
 import csv
-import re
 from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
 
-LENGTH = {"m": 1.0, "mm": 1e-3, "um": 1e-6}
-STRAIN = {"-": 1.0, "%": 1e-2}
-STRESS = {"Pa": 1.0, "kPa": 1e3, "MPa": 1e6}
-FORCE = {"N": 1.0, "mN": 1e-3, "kN": 1e3, "gf": 9.80665e-3}
-TIME = {"s": 1.0, "ms": 1e-3, "min": 60.0}
-RATE = {"1/s": 1.0, "1/min": 1 / 60}
-AREA = {"m2": 1.0, "mm2": 1e-6, "cm2": 1e-4}
+from bolus_calibration.columns import (
+    COLUMNS,
+    LABELS,
+    DataError,
+    find_columns,
+    read_note,
+    read_number,
+)
 
-COLUMNS = {
-    "time": TIME,
-    "displacement": LENGTH,
-    "force": FORCE,
-    "engineeringStrain": STRAIN,
-    "strain": STRAIN,
-    "engineeringStress": STRESS,
-    "stress": STRESS,
-    "shearStrain": STRAIN,
-    "shearStress": STRESS,
-    "rate": RATE,
-}
-LABELS = ("specimen", "segment")
-NOTES = {"height": LENGTH, "diameter": LENGTH, "area": AREA, "rate": RATE}
+# Largest strains that are no percentages
+LARGEST_STRAIN = 4.0
+LARGEST_SHEAR = 20.0
 
 SEGMENTS = ("loading", "relaxation", "unloading")
 FEWEST_ROWS = 8
-
-
-class DataError(ValueError):
-    """Data that cannot be used: where, what, and what would be valid."""
 
 
 @dataclass
@@ -98,63 +94,6 @@ class Curve:
         return bool(np.any(self.segment == SEGMENTS.index(segment)))
 
 
-def _number(text: str, where: str) -> float:
-    try:
-        value = float(text)
-    except ValueError:
-        value = np.nan
-    if not np.isfinite(value):
-        raise DataError(f"{where}: '{text}' is not a finite number")
-    return value
-
-
-def _unit(units: dict, unit: str, where: str) -> float:
-    if unit not in units:
-        raise DataError(
-            f"{where}: unknown unit '{unit}'; valid are {', '.join(units)}"
-        )
-    return units[unit]
-
-
-def _columns(names: list[str], where: str) -> dict[str, tuple[int, float]]:
-    """Position and scale to SI of each column that is ours."""
-    known = {name.lower(): name for name in (*COLUMNS, *LABELS)}
-    found = {}
-    for i, text in enumerate(names):
-        match = re.fullmatch(r"\s*(\w+)\s*(?:[\[(]\s*(.*?)\s*[\])])?\s*", text)
-        name = known.get(match.group(1).lower()) if match else None
-        if name is None:
-            continue
-        if name in found:
-            raise DataError(f"{where}: two columns {name}")
-        if name in LABELS:
-            found[name] = (i, 1.0)
-            continue
-        if match.group(2) is None:
-            raise DataError(
-                f"{where}: column {name} lacks its unit, as in "
-                f"'{name} [{next(iter(COLUMNS[name]))}]'; valid are "
-                f"{', '.join(COLUMNS[name])}"
-            )
-        scale = _unit(COLUMNS[name], match.group(2), f"{where}: column {name}")
-        found[name] = (i, scale)
-    return found
-
-
-def _note(line: str, notes: dict, where: str) -> None:
-    """A line "# name: value unit"; other comments are free."""
-    match = re.fullmatch(r"#\s*(\w+)\s*:\s*(\S+)\s*(\S*)\s*", line)
-    if not match or match.group(1).lower() not in NOTES:
-        return
-    name, number, unit = match.groups()
-    name = name.lower()
-    value = _number(number, f"{where}: {name}")
-    value *= _unit(NOTES[name], unit, f"{where}: {name}")
-    if value <= 0:
-        raise DataError(f"{where}: {name} is {number}; it must be positive")
-    notes[name] = value
-
-
 def _one_sign(values: np.ndarray, what: str) -> np.ndarray:
     """Magnitudes of values that are of one sign but for a little noise."""
     low, high = -min(values.min(), 0), max(values.max(), 0)
@@ -168,22 +107,45 @@ def _one_sign(values: np.ndarray, what: str) -> np.ndarray:
     return values if high > low else -values
 
 
-def _strain_and_stress(data: dict, notes: dict, where: str):
-    """Kind of test, equivalent strain [-] and stress [Pa]."""
+def _section(notes: dict, where: str) -> float:
+    """Area of the first section [m2]."""
+    areas = [notes["area"]] if "area" in notes else []
+    if "diameter" in notes:
+        areas.append(np.pi / 4 * notes["diameter"] ** 2)
+    if not areas:
+        raise DataError(
+            f"{where}: force needs a line '# diameter: VALUE UNIT' or '# area: "
+            "VALUE UNIT'"
+        )
+    if max(areas) > 1.01 * min(areas):
+        raise DataError(
+            f"{where}: the area is {areas[0]:.4g} m2, but by the diameter "
+            f"{areas[1]:.4g} m2; give one of them"
+        )
+    return areas[0]
 
-    def need(name, what):
-        if name not in notes:
+
+def _strain_and_stress(data: dict, notes: dict, where: str):
+    """Kind of test, strain as given [-], equivalent strain [-] and stress
+    [Pa]."""
+
+    def below(strain, largest, name):
+        if strain.max() > largest:
             raise DataError(
-                f"{where}: {what} needs a line '# {name}: VALUE UNIT'"
+                f"{where}: {name} reaches {strain.max():.3g}: it must stay "
+                f"below {largest:g} (a percentage has the unit %)"
             )
-        return notes[name]
 
     shear = "shearStrain" in data and "shearStress" in data
     strains = [
-        n for n in ("strain", "engineeringStrain", "displacement") if n in data
+        n
+        for n in ("strain", "engineeringStrain", "trueStrain", "displacement")
+        if n in data
     ]
     stresses = [
-        n for n in ("stress", "engineeringStress", "force") if n in data
+        n
+        for n in ("stress", "engineeringStress", "trueStress", "force")
+        if n in data
     ]
     if shear:
         if strains or stresses:
@@ -192,37 +154,87 @@ def _strain_and_stress(data: dict, notes: dict, where: str):
                 f"{', '.join(strains + stresses)} beside the shear columns"
             )
         strain = _one_sign(data["shearStrain"], f"{where}: shearStrain")
+        below(strain, LARGEST_SHEAR, "shearStrain")
         stress = _one_sign(data["shearStress"], f"{where}: shearStress")
-        return "shear", strain / np.sqrt(3), stress * np.sqrt(3)
+        return "shear", strain, strain / np.sqrt(3), stress * np.sqrt(3)
     if len(strains) != 1 or len(stresses) != 1:
         raise DataError(
             f"{where}: it has {', '.join(data) or 'no known column'}; needed "
-            "are one of strain, engineeringStrain, displacement and one of "
-            "stress, engineeringStress, force; or shearStrain and shearStress"
+            "are one of strain, engineeringStrain, trueStrain, displacement "
+            "and one of stress, engineeringStress, trueStress, force; or "
+            "shearStrain and shearStress"
         )
 
     given = _one_sign(data[strains[0]], f"{where}: {strains[0]}")
-    if strains[0] == "strain":
+    if strains[0] == "trueStrain":
+        below(given, LARGEST_STRAIN, "trueStrain")
         strain = given
     else:
         if strains[0] == "displacement":
-            given = given / need("height", "displacement")
+            if "height" not in notes:
+                raise DataError(
+                    f"{where}: displacement needs a line '# height: VALUE UNIT'"
+                )
+            given = given / notes["height"]
         if given.max() >= 1:
             raise DataError(
                 f"{where}: {strains[0]} reaches {given.max():.3g} of the "
-                "height: it must stay below 1 (a percentage has the unit %)"
+                "height: it must stay below 1 (a percentage has the unit %; "
+                "a logarithmic strain is a trueStrain)"
             )
         strain = -np.log1p(-given)
 
     stress = _one_sign(data[stresses[0]], f"{where}: {stresses[0]}")
     if stresses[0] == "force":
-        if "area" in notes:
-            stress = stress / notes["area"]
-        else:
-            stress = stress / (np.pi / 4 * need("diameter", "force") ** 2)
-    if stresses[0] != "stress":
+        stress = stress / _section(notes, where)
+    if stresses[0] != "trueStress":
         stress = stress * np.exp(-strain)  # Eq. 3
-    return "compression", strain, stress
+    return "compression", given, strain, stress
+
+
+def _taken(data: dict, units: dict, name: str) -> list[str]:
+    """What the header leaves open, and how it was taken."""
+    remarks = []
+    open_ = [n for n in ("strain", "stress") if n in data]
+    if open_:
+        meant = {
+            "strain": "strain as engineering, 1 - H/H0 (logarithmic is a "
+            "trueStrain)",
+            "stress": "stress as engineering, force over the first section "
+            "(over the present one is a trueStress)",
+        }
+        remarks.append(
+            f"{name}: the header does not say which; taken are "
+            + " and ".join(meant[n] for n in open_)
+        )
+    for column, unit in units.items():
+        if unit == "%":
+            largest = 100 * np.abs(data[column]).max()
+            if largest < 2:
+                remarks.append(
+                    f"{name}: {column} reaches {largest:.3g} %; if that is no "
+                    "percentage, its unit is -"
+                )
+    return remarks
+
+
+def _given_rate(data: dict, notes: dict, loading, where: str) -> float | None:
+    """Rate that the file tells, of the strain as it is given [1/s]."""
+    told = [notes["rate"]] if "rate" in notes else []
+    if "rate" in data:
+        rates = np.abs(data["rate"][loading])
+        # A rheometer's own rates waver
+        told += [np.median(rates)]
+        if "time" not in data:
+            told += [rates.min(), rates.max()]
+    if not told:
+        return None
+    if max(told) > 1.1 * min(told):
+        raise DataError(
+            f"{where}: rates from {min(told):.3g} to {max(told):.3g}/s; "
+            "valid is one rate of the loading, or a column time [s]"
+        )
+    return float(told[0])
 
 
 def _segments(strain, labels, where) -> np.ndarray:
@@ -246,14 +258,14 @@ def _segments(strain, labels, where) -> np.ndarray:
     return result
 
 
-def _curve(name, data, labels, notes, where) -> Curve:
-    """A specimen from its columns in SI units."""
+def _curve(name, data, units, labels, notes, where) -> Curve:
+    """A specimen from its columns in SI units; units: those of the file."""
     count = len(next(iter(data.values())))
     if count < FEWEST_ROWS:
         raise DataError(
             f"{where}: {count} rows; at least {FEWEST_ROWS} are needed"
         )
-    remarks = []
+    remarks = _taken(data, units, name)
 
     def rearrange(order, why):
         nonlocal data, labels
@@ -264,7 +276,7 @@ def _curve(name, data, labels, notes, where) -> Curve:
     if "time" in data and np.any(np.diff(data["time"]) < 0):
         rearrange(np.argsort(data["time"], kind="stable"), "sorted by time")
 
-    kind, strain, stress = _strain_and_stress(data, notes, where)
+    kind, given, strain, stress = _strain_and_stress(data, notes, where)
     if "time" not in data and labels is None:
         # One turning point is an unloading; more is disorder
         steps = np.sign(np.diff(strain))
@@ -274,35 +286,49 @@ def _curve(name, data, labels, notes, where) -> Curve:
                 np.argsort(strain, kind="stable"),
                 "sorted by strain (no time, and the strain goes to and fro)",
             )
-            kind, strain, stress = _strain_and_stress(data, notes, where)
+            kind, given, strain, stress = _strain_and_stress(data, notes, where)
     segment = _segments(strain, labels, where)
     loading = segment == 0
     if np.count_nonzero(loading) < FEWEST_ROWS // 2:
         raise DataError(f"{where}: fewer than {FEWEST_ROWS // 2} rows load it")
 
-    share = 1 / np.sqrt(3) if kind == "shear" else 1.0
+    if strain[0] > 0.2 * strain.max():
+        remarks.append(
+            f"{name}: the first row is at {100 * strain[0] / strain.max():.0f} "
+            "% of the largest strain; taken as since the specimen was unloaded"
+        )
+    told = _given_rate(data, notes, loading, where)
     if "time" in data:
         time = data["time"] - data["time"][0]
         if np.ptp(time[loading]) <= 0:
             raise DataError(f"{where}: time stands still while loading")
-        rate = np.polyfit(time[loading], strain[loading], 1)[0]
-        # What happened before the first row, at the same rate
-        time = time + strain[0] / rate if rate > 0 else time
+        found = np.polyfit(time[loading], given[loading], 1)[0]
+        if told and not told / 1.5 < found < told * 1.5:
+            raise DataError(
+                f"{where}: the rate is {told:.3g}/s, but by time and strain "
+                f"{found:.3g}/s"
+            )
     else:
         if np.any(segment == 1):
             raise DataError(f"{where}: a relaxation needs a column time [s]")
-        given = data["rate"][0] if "rate" in data else notes.get("rate")
-        if given is None:
+        if told is None:
             raise DataError(
                 f"{where}: no rate: give a column time [s] or rate [1/s], or "
                 "a line '# rate: VALUE 1/s'"
             )
-        rate = abs(given) * share
-        if rate > 0:
-            path = np.abs(np.diff(strain, prepend=0.0))
-            time = np.cumsum(path) / rate
+        if not told > 0:
+            raise DataError(f"{where}: the rate of loading is {told:.3g}/s")
+        time = np.cumsum(np.abs(np.diff(given, prepend=given[0]))) / told
+        if kind == "compression" and "trueStrain" not in data:
+            remarks.append(
+                f"{name}: the rate is taken as that of the engineering strain "
+                "(speed over first height)"
+            )
+    rate = np.polyfit(time[loading], strain[loading], 1)[0]
     if not rate > 0:
         raise DataError(f"{where}: the rate of loading is {rate:.3g}/s")
+    # What happened before the first row, at the same rate
+    time = time + strain[0] / rate
     return Curve(
         name, kind, float(rate), time, strain, stress, segment, remarks
     )
@@ -317,25 +343,30 @@ def read(path) -> list[Curve]:
         raise DataError(f"{path}: cannot be read as text: {error}") from error
 
     notes: dict[str, float] = {}
-    columns: dict[str, tuple[int, float]] | None = None
+    columns: dict[str, tuple[int, str]] | None = None
+    header: list[str] = []
     separator = ","
     rows: dict[str, list[tuple[int, list[str]]]] = {}
     for number, line in enumerate(lines, 1):
         where = f"{path}, line {number}"
         if line.startswith("#"):
-            _note(line, notes, where)
+            read_note(line, notes, where)
             continue
         if not line.strip(",;\t "):
             continue
         if columns is None:
             separator = max(",;\t", key=line.count)
-            columns = _columns(
-                next(csv.reader([line], delimiter=separator)), where
-            )
+            header = next(csv.reader([line], delimiter=separator))
+            columns = find_columns(header, where)
             continue
         row = [t.strip() for t in next(csv.reader([line], delimiter=separator))]
         if any(i >= len(row) for i, _ in columns.values()):
             raise DataError(f"{where}: {len(row)} values, fewer than columns")
+        if any(row[len(header) :]):
+            raise DataError(
+                f"{where}: {len(row)} values, more than columns; decimals have "
+                "a point"
+            )
         label = row[columns["specimen"][0]] if "specimen" in columns else ""
         rows.setdefault(label, []).append((number, row))
 
@@ -345,18 +376,21 @@ def read(path) -> list[Curve]:
             "'time [s], displacement [mm], force [N]'"
         )
 
+    used = {i for i, _ in columns.values()}
+    unused = [h.strip() for i, h in enumerate(header) if i not in used]
+    unused = [text for text in unused if text]
     curves = []
     for label, table in rows.items():
         name = f"{path.stem} {label}".strip()
         data = {
-            column: scale
+            column: COLUMNS[column][unit]
             * np.array(
                 [
-                    _number(row[i], f"{path}, line {number}: {column}")
+                    read_number(row[i], f"{path}, line {number}: {column}")
                     for number, row in table
                 ]
             )
-            for column, (i, scale) in columns.items()
+            for column, (i, unit) in columns.items()
             if column not in LABELS
         }
         labels = (
@@ -364,7 +398,12 @@ def read(path) -> list[Curve]:
             if "segment" in columns
             else None
         )
+        units = {column: unit for column, (_, unit) in columns.items()}
         curves.append(
-            _curve(name, data, labels, notes, f"{path} {label}".strip())
+            _curve(name, data, units, labels, notes, f"{path} {label}".strip())
+        )
+    if unused:
+        curves[0].remarks.append(
+            f"{path.name}: columns not used: {', '.join(unused)}"
         )
     return curves

@@ -17,7 +17,8 @@ import matplotlib.pyplot as plt  # noqa: E402
 import numpy as np  # noqa: E402
 
 from bolus_validation import cutting  # noqa: E402
-from bolus_validation.fields import Case, read_field  # noqa: E402
+from bolus_validation.fields import Case  # noqa: E402
+from bolus_validation.foam_files import read_field  # noqa: E402
 from bolus_validation.physics.cases import draw_cells  # noqa: E402
 from bolus_validation.results import (  # noqa: E402
     optional_table,

@@ -2,12 +2,10 @@
 # Copyright (C) 2026 the bolusFoam developers
 """Meshes and cell fields of an OpenFOAM case as numpy arrays.
 
-Reads ASCII files, plain or gzipped, of a serial or reconstructed case. SI
-units throughout. PyFoam's parser would take minutes for the meshes of a run;
-this one hands the numbers to numpy in one piece.
+Of a serial or reconstructed case; what files may be: foam_files. SI units
+throughout.
 """
 
-import gzip
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -18,90 +16,25 @@ import numpy as np
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 
-# Brackets to blanks: what is left is a plain sequence of numbers
-_FLATTEN = bytes.maketrans(b"()", b"  ")
+from bolus_validation.foam_files import (
+    FoamFileError,
+    read_faces,
+    read_field,
+    read_list,
+    read_text,
+    stored,
+)
+from bolus_validation.frame import (
+    Frame,
+    declared_frame,
+    other_frame,
+    plane_normal,
+    wedge_frame,
+)
 
 
-class FoamFileError(ValueError):
-    """A file that cannot be read, and what would be valid."""
-
-
-def _read_bytes(path: Path) -> bytes:
-    """Content of an ASCII file of OpenFOAM or of its .gz."""
-    if path.is_file():
-        data = path.read_bytes()
-    elif path.with_name(path.name + ".gz").is_file():
-        data = gzip.decompress(path.with_name(path.name + ".gz").read_bytes())
-    else:
-        raise FoamFileError(f"{path}: no such file, nor one with .gz")
-    form = re.search(rb"\bformat\s+(\w+)\s*;", data[:2000])
-    if form and form.group(1) != b"ascii":
-        raise FoamFileError(
-            f"{path}: format is {form.group(1).decode()}; valid is ascii "
-            "(writeFormat in system/controlDict, or foamFormatConvert)"
-        )
-    return data
-
-
-def _numbers(data: bytes, dtype: type, path: Path) -> np.ndarray:
-    """All the numbers of a bracketed list, flat."""
-    try:
-        return np.array(data.translate(_FLATTEN).split(), dtype=dtype)
-    except ValueError as error:
-        raise FoamFileError(f"{path}: {error}") from None
-
-
-def _body(data: bytes) -> bytes:
-    """The content behind the FoamFile header, without comments."""
-    data = re.sub(rb"/\*.*?\*/|//[^\n]*", b"", data, flags=re.DOTALL)
-    header = re.search(rb"FoamFile\s*\{[^}]*\}", data)
-    return data[header.end() :] if header else data
-
-
-def _read_list(path: Path, dtype: type) -> tuple[int, np.ndarray]:
-    """Size and flat numbers of a file that is one list, N ( ... )."""
-    body = _body(_read_bytes(path))
-    head = re.match(rb"\s*(\d+)\s*\(", body)
-    if not head:
-        raise FoamFileError(f"{path}: not a list 'N ( ... )'")
-    flat = _numbers(body[head.end() : body.rindex(b")")], dtype, path)
-    return int(head.group(1)), flat
-
-
-def read_field(path: Path, size: int) -> np.ndarray:
-    """The internal field of a file.
-
-    Returns (size,) for a scalar, (size, 3) for a vector, (size, 6) for a
-    symmetric tensor (xx xy xz yy yz zz), in the unit of the field.
-    """
-    data = _read_bytes(path)
-    start = re.search(rb"\binternalField\s+", data)
-    if not start:
-        raise FoamFileError(f"{path}: has no internalField")
-    entry = data[start.end() : data.index(b";", start.end())]
-
-    uniform = re.match(rb"uniform\s+(.*)", entry, flags=re.DOTALL)
-    if uniform:
-        value = _numbers(uniform.group(1), float, path)
-        value = value[0] if value.size == 1 else value
-        return np.broadcast_to(value, (size, *np.shape(value))).copy()
-
-    head = re.match(rb"nonuniform\s+List<\w+>\s*(\d+)\s*([({])", entry)
-    if not head:
-        raise FoamFileError(f"{path}: internalField is no list of numbers")
-    count = int(head.group(1))
-    if count != size:
-        raise FoamFileError(
-            f"{path}: {count} values, but the mesh has {size} cells"
-        )
-    if head.group(2) == b"{":  # N{value}: all the same
-        value = _numbers(entry[head.end() : entry.rindex(b"}")], float, path)
-        flat = np.tile(value, count)
-    else:
-        flat = _numbers(entry[head.end() : entry.rindex(b")")], float, path)
-    if flat.size % count:
-        raise FoamFileError(f"{path}: {flat.size} numbers in {count} values")
-    return flat if flat.size == count else flat.reshape(count, -1)
+class NoSection(ValueError):
+    """A mesh that is neither a wedge nor plane."""
 
 
 @dataclass
@@ -123,7 +56,8 @@ class Section:
     """The cells of a wedge or plane mesh as polygons.
 
     cells     (n,) cell labels
-    polygons  n arrays (k, 2) of corners: (x, r) in a wedge, (x, y) in a plane
+    polygons  n arrays (k, 2) of corners: along the axis and across, (x, r) in
+              a wedge, (x, y) in a plane
     """
 
     cells: np.ndarray
@@ -138,14 +72,24 @@ class Mesh:
     faces      nFaces arrays of point labels
     owner      (nFaces,), neighbour (nInternalFaces,) cell labels
     patches    by name
+    declared   the axis of the case's motility, if it has one
     """
 
-    def __init__(self, points, faces, owner, neighbour, patches):
+    def __init__(
+        self,
+        points,
+        faces,
+        owner,
+        neighbour,
+        patches,
+        declared: Frame | None = None,
+    ):
         self.points = points
         self.faces = faces
         self.owner = owner
         self.neighbour = neighbour
         self.patches: dict[str, Patch] = patches
+        self.declared = declared
         self.n_cells = int(owner.max()) + 1
 
     @cached_property
@@ -212,10 +156,24 @@ class Mesh:
         """Area vectors, out of the owner (nFaces, 3) [m2]."""
         return self._face_geometry[1]
 
+    @cached_property
+    def frame(self) -> Frame:
+        """Where the axis is: see frame.py."""
+        planes = self._wedge_planes
+        if planes:
+            size = float(np.abs(self.points).max())
+            return wedge_frame(planes, size, self.declared)
+        return other_frame(self._normal, self.declared)
+
+    @property
+    def axial(self) -> np.ndarray:
+        """x of the cell centres along the axis (nCells,) [m]."""
+        return self.frame.axial(self.cell_centres)
+
     @property
     def radii(self) -> np.ndarray:
-        """Distance of the cell centres from the x axis (nCells,) [m]."""
-        return np.hypot(self.cell_centres[:, 1], self.cell_centres[:, 2])
+        """Distance of the cell centres from the axis (nCells,) [m]."""
+        return self.frame.radial(self.cell_centres)
 
     def _patches_of_type(self, *types: str) -> Iterator[Patch]:
         return (p for p in self.patches.values() if p.type in types and p.size)
@@ -225,47 +183,92 @@ class Mesh:
         """Is it a wedge?"""
         return any(self._patches_of_type("wedge"))
 
+    @cached_property
+    def _wedge_planes(self) -> list[tuple[np.ndarray, np.ndarray]]:
+        """Unit normal and a point of each of a wedge's two sides, which may
+        be of several patches; empty if it is no wedge."""
+        sides: list[list[int]] = []
+        normals: list[np.ndarray] = []
+        for patch in self._patches_of_type("wedge"):
+            normal = self.face_areas[patch.faces].sum(axis=0)
+            normal /= np.linalg.norm(normal)
+            for side, other in zip(sides, normals, strict=True):
+                # Wedges are some degrees wide, and their sides flat
+                if normal @ other > 1 - 1e-6:
+                    side += patch.faces
+                    break
+            else:
+                sides.append(list(patch.faces))
+                normals.append(normal)
+        if sides and len(sides) != 2:
+            raise FoamFileError(
+                f"the wedge patches lie in {len(sides)} planes; valid are two"
+            )
+        planes = []
+        for side in sides:
+            area = self.face_areas[side]
+            weight = np.linalg.norm(area, axis=1)
+            centre = np.average(self.face_centres[side], axis=0, weights=weight)
+            normal = area.sum(axis=0)
+            planes.append((normal / np.linalg.norm(normal), centre))
+        return planes
+
     @property
     def wedge_angle(self) -> float | None:
         """Angle between the wedge patches [rad]; None if it is no wedge."""
-        normals = [
-            self.face_areas[patch.faces].sum(axis=0)
-            for patch in self._patches_of_type("wedge")
-        ]
-        if len(normals) != 2:
+        if not self._wedge_planes:
             return None
-        a, b = (n / np.linalg.norm(n) for n in normals)
+        (a, _), (b, _) = self._wedge_planes
         return float(np.pi - np.arccos(np.clip(a @ b, -1, 1)))
+
+    @property
+    def _empty(self) -> np.ndarray:
+        """Labels of the faces of empty patches."""
+        return np.array(
+            [i for p in self._patches_of_type("empty") for i in p.faces],
+            dtype=int,
+        )
+
+    @cached_property
+    def _normal(self) -> np.ndarray | None:
+        """Unit normal of a plane mesh; None if it is none."""
+        if self.axisymmetric or not self._empty.size:
+            return None
+        return plane_normal(self.face_areas[self._empty])
 
     def _plane(self, points: np.ndarray) -> np.ndarray:
         """(n, 3) points to (n, 2): (x, r) in a wedge, (x, y) in a plane."""
         if self.axisymmetric:
-            radius = np.hypot(points[:, 1], points[:, 2])
-            return np.column_stack([points[:, 0], radius])
-        return points[:, :2]
+            across = self.frame.radial(points)
+        else:
+            up = np.cross(self._normal, self.frame.axis)
+            # Up is up: in the x-z plane as well
+            up *= np.sign(up[np.abs(up).argmax()])
+            across = (points - self.frame.origin) @ up
+        return np.column_stack([self.frame.axial(points), across])
 
     @cached_property
     def section(self) -> Section:
         """The cells as polygons; only of a wedge or plane mesh."""
-        wedge = next(self._patches_of_type("wedge"), None)
-        if wedge:
-            labels = np.array(wedge.faces)
-        else:
+        if self.axisymmetric:
             labels = np.array(
-                [i for p in self._patches_of_type("empty") for i in p.faces],
-                dtype=int,
+                [i for p in self._patches_of_type("wedge") for i in p.faces]
             )
-            # One of the two sides of the plane
-            labels = labels[self.face_areas[labels, 2] > 0]
+            normal = self._wedge_planes[0][0]
+        else:
+            labels, normal = self._empty, self._normal
         if labels.size == 0:
-            raise ValueError(
-                "the mesh has no section: it has neither wedge patches nor "
-                "empty ones across z"
+            raise NoSection(
+                "the mesh has no section: it has neither wedge nor empty "
+                "patches"
             )
+        # One of the two sides
+        area = self.face_areas[labels]
+        labels = labels[area @ normal > 0.5 * np.linalg.norm(area, axis=1)]
         return Section(
             cells=self.owner[labels],
             polygons=[self._plane(self.points[self.faces[i]]) for i in labels],
-            axisymmetric=wedge is not None,
+            axisymmetric=self.axisymmetric,
         )
 
     def wall_lines(self) -> list[np.ndarray]:
@@ -301,40 +304,28 @@ class Mesh:
 
 def _read_topology(polymesh: Path) -> tuple:
     """Faces, owner, neighbour and patches: see Mesh."""
-    n_faces, flat = _read_list(polymesh / "faces", int)
-    faces = []
-    i = 0
-    while i < flat.size:
-        n = flat[i]
-        faces.append(flat[i + 1 : i + 1 + n])
-        i += 1 + n
-    if len(faces) != n_faces:
-        raise FoamFileError(
-            f"{polymesh / 'faces'}: {len(faces)} faces, {n_faces} announced"
-        )
-
-    owner = _read_list(polymesh / "owner", int)[1]
-    neighbour = _read_list(polymesh / "neighbour", int)[1]
-
     patches = {}
-    text = _body(_read_bytes(polymesh / "boundary")).decode()
+    text = read_text(polymesh / "boundary")
     for name, entries in re.findall(r"([\w.:-]+)\s*\{([^}]*)\}", text):
         get = dict(re.findall(r"(\w+)\s+([^;]*);", entries))
         patches[name] = Patch(
             get["type"], int(get["nFaces"]), int(get["startFace"])
         )
-
-    return faces, owner, neighbour, patches
+    return (
+        read_faces(polymesh / "faces"),
+        read_list(polymesh / "owner", int),
+        read_list(polymesh / "neighbour", int),
+        patches,
+    )
 
 
 def _read_points(path: Path) -> np.ndarray:
     """(nPoints, 3) [m]."""
-    n_points, flat = _read_list(path, float)
-    return flat.reshape(n_points, 3)
+    return read_list(path, float, 3)
 
 
 def read_mesh(polymesh: Path) -> Mesh:
-    """The mesh in a folder polyMesh."""
+    """The mesh in a folder polyMesh, without the axis of any motility."""
     return Mesh(_read_points(polymesh / "points"), *_read_topology(polymesh))
 
 
@@ -350,6 +341,11 @@ class Case:
         # By their folders: the points of a moving mesh change, not its faces
         self._meshes: dict[tuple[Path, Path], Mesh] = {}
         self._topologies: dict[Path, tuple] = {}
+
+    @cached_property
+    def declared(self) -> Frame | None:
+        """The axis of its motility; None if it has none."""
+        return declared_frame(self.path)
 
     @cached_property
     def times(self) -> dict[float, Path]:
@@ -374,9 +370,7 @@ class Case:
         """The folder polyMesh that holds a mesh file at a time."""
         for t in sorted(self.times, reverse=True):
             folder = self.times[t] / "polyMesh"
-            if t <= time and any(
-                (folder / (name + end)).is_file() for end in ("", ".gz")
-            ):
+            if t <= time and stored(folder / name):
                 return folder
         return self.path / "constant" / "polyMesh"
 
@@ -388,14 +382,15 @@ class Case:
             self._topologies[topology] = _read_topology(topology)
         if (points, topology) not in self._meshes:
             self._meshes[points, topology] = Mesh(
-                _read_points(points / "points"), *self._topologies[topology]
+                _read_points(points / "points"),
+                *self._topologies[topology],
+                declared=self.declared,
             )
         return self._meshes[points, topology]
 
     def has(self, time: float, name: str) -> bool:
         """Was this field written at this time?"""
-        folder = self.times[time]
-        return any((folder / (name + end)).is_file() for end in ("", ".gz"))
+        return stored(self.times[time] / name) is not None
 
     def field(self, time: float, name: str) -> np.ndarray:
         """A cell field at a written time; shapes: see read_field."""

@@ -17,7 +17,6 @@ import base64
 import html
 import json
 import re
-import subprocess
 import sys
 from dataclasses import dataclass
 from pathlib import Path
@@ -29,7 +28,9 @@ from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize
 
 from bolus_validation import plots
-from bolus_validation.fields import Case, FoamFileError
+from bolus_validation.fields import Case
+from bolus_validation.foam_files import FoamFileError, expanded
+from bolus_validation.locking import alone_in
 from bolus_validation.results import (
     PAPER_TIMES,
     TIME_TOLERANCE,
@@ -69,48 +70,15 @@ class Shown:
 # --- what is told of a case -----------------------------
 
 
-def entries(text: str) -> dict[str, str]:
-    """Entries of a dictionary as foamDictionary prints it, by their path."""
-    found, path, held = {}, [], ""
-    text = re.sub(r"/\*.*?\*/|//[^\n]*", "", text, flags=re.DOTALL)
-    for token in re.findall(r'"[^"]*"|[{};]|[^{};"]+', text):
-        if token == "{":
-            path.append(" ".join(held.split()))
-            held = ""
-        elif token == "}":
-            if path:
-                path.pop()
-            held = ""
-        elif token == ";":
-            words = held.split(None, 1)
-            if words:
-                value = " ".join(words[1].split()) if len(words) > 1 else ""
-                found[".".join([*path, words[0]])] = value
-            held = ""
-        else:
-            held += token
-    return {
-        name: value
-        for name, value in found.items()
-        if not name.startswith("FoamFile")
-    }
-
-
 def read_inputs(path: Path) -> dict[str, dict[str, str]]:
     """The dictionaries of a case, includes and macros expanded."""
     found = {}
     for name in INPUTS:
         if (path / name).is_file():
-            done = subprocess.run(
-                ["foamDictionary", "-expand", name],
-                cwd=path,
-                capture_output=True,
-                text=True,
-            )
-            if done.returncode == 0:
-                found[name] = entries(done.stdout)
-            else:
-                found[name] = {"(not readable)": done.stderr.strip()[-300:]}
+            try:
+                found[name] = expanded(path, name)
+            except FoamFileError as error:
+                found[name] = {"(not readable)": str(error)}
     return found
 
 
@@ -182,8 +150,8 @@ def warn(path: Path, results: dict, inputs: dict) -> list[str]:
     return found
 
 
-def show(path: Path) -> Shown:
-    """All that the page tells of a case, but for its pictures."""
+def check(path: Path) -> None:
+    """Raise FoamFileError where there is no run to tell of."""
     if not (path / "system" / "controlDict").is_file():
         raise FoamFileError(f"{path}: not a case (no system/controlDict)")
     if not (path / "postProcessing").is_dir():
@@ -192,6 +160,11 @@ def show(path: Path) -> Shown:
         raise FoamFileError(
             f"{path}: no results (no postProcessing); ./Allrun run it first"
         )
+
+
+def show(path: Path) -> Shown:
+    """All that the page tells of a case, but for its pictures."""
+    check(path)
     results = collect(path)
     inputs = read_inputs(path)
     return Shown(
@@ -500,7 +473,12 @@ def main(arguments=None) -> int:
     )
     options = parser.parse_args(arguments)
     try:
-        print(write(options.cases, options.out))
+        folder = options.out or options.cases[0] / "report"
+        for case in options.cases:
+            check(case)
+        folder.mkdir(parents=True, exist_ok=True)
+        with alone_in(folder):
+            print(write(options.cases, folder))
     except (FoamFileError, OSError) as error:
         print(f"report: {error}", file=sys.stderr)
         return 1

@@ -38,7 +38,9 @@ from matplotlib.cm import ScalarMappable  # noqa: E402
 from matplotlib.collections import LineCollection, PolyCollection  # noqa: E402
 from matplotlib.colors import Normalize  # noqa: E402
 
-from bolus_validation.fields import Case, FoamFileError, Section  # noqa: E402
+from bolus_validation.fields import Case, NoSection, Section  # noqa: E402
+from bolus_validation.foam_files import FoamFileError, stored  # noqa: E402
+from bolus_validation.locking import alone_in  # noqa: E402
 from bolus_validation.results import (  # noqa: E402
     PAPER_TIMES,
     TIME_TOLERANCE,
@@ -464,10 +466,11 @@ def draw(paths, times=PAPER_TIMES, folder: Path | None = None) -> list[Path]:
     folder.mkdir(parents=True, exist_ok=True)
 
     made = []
+    flat = stored(first.path / "constant" / "polyMesh" / "owner") is not None
     try:
-        first.mesh(min(first.times, default=0.0)).section  # noqa: B018
-        flat = True
-    except (ValueError, FoamFileError):
+        if flat:
+            first.mesh(min(first.times, default=0.0)).section  # noqa: B018
+    except NoSection:
         flat = False
     if flat:
         for quantity in BOLUS_FIELDS:
@@ -500,9 +503,13 @@ def main(arguments=None) -> int:
     parser.add_argument("--out", type=Path, help="folder (CASE/pictures)")
     options = parser.parse_args(arguments)
     try:
-        for path in draw(options.cases, options.times, options.out):
-            print(path)
-    except FoamFileError as error:
+        Case(options.cases[0])
+        if options.out:
+            options.out.mkdir(parents=True, exist_ok=True)
+        with alone_in(options.out or options.cases[0]):
+            for path in draw(options.cases, options.times, options.out):
+                print(path)
+    except (FoamFileError, OSError) as error:
         print(f"plots: {error}", file=sys.stderr)
         return 1
     return 0

@@ -8,6 +8,8 @@ On with -set system/controlDict:profiling.active=true.
 import re
 from pathlib import Path
 
+from bolus_validation.foam_files import read_text
+
 # What is shown: the names that the solver gives them, and OpenFOAM its own
 PHASES = {
     "assembly": ("residual", "tangent"),
@@ -26,7 +28,7 @@ def read_profile(path: Path) -> dict[str, float]:
     Raises ValueError if the file has none.
     """
     found: dict[str, float] = {}
-    for block in re.findall(r"trigger\d+\s*\{(.*?)\}", path.read_text(), re.S):
+    for block in re.findall(r"trigger\d+\s*\{(.*?)\}", read_text(path), re.S):
         entries = dict(re.findall(r'(\w+)\s+("[^"]*"|[^;]+);', block))
         name = entries["description"].strip('"')
         found[name] = found.get(name, 0) + float(entries["totalTime"])
@@ -39,11 +41,11 @@ def phases(case: Path) -> dict[str, float]:
     """Seconds by phase, "the rest" and "total" [s] of a run since its last
     start, of its first rank; empty if it was not profiled."""
     base = case / "processor0" if (case / "processor0").is_dir() else case
-    files = base.glob("*/uniform/profiling")
+    files = base.glob("*/uniform/profiling*")
     last = max(files, key=lambda p: float(p.parts[-3]), default=None)
     if last is None:
         return {}
-    seconds = read_profile(last)
+    seconds = read_profile(last.with_name("profiling"))
     found = {
         phase: sum(seconds.get(name, 0) for name in names)
         for phase, names in PHASES.items()

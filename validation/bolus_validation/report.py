@@ -17,7 +17,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
-from bolus_validation.fields import FoamFileError
+from bolus_validation.foam_files import FoamFileError
+from bolus_validation.locking import alone_in
 from bolus_validation.results import LOADED, Table, optional_table
 
 BEGIN = "<!-- comparison: begin, made by scripts/results: do not edit -->"
@@ -491,12 +492,13 @@ def main(arguments=None) -> int:
     try:
         text = comparison(options.case)
         target = options.case / "comparison.md"
-        target.write_text(text)
+        with alone_in(options.case):
+            target.write_text(text)
         print(target)
         if options.readme:
             put_between_markers(options.readme, text)
             print(options.readme)
-    except FoamFileError as error:
+    except (FoamFileError, OSError) as error:
         print(f"report: {error}", file=sys.stderr)
         return 1
     return 0

@@ -12,7 +12,7 @@ nothing that it depends on has changed: solver, study, common properties.
 """
 
 import argparse
-import fcntl
+import ctypes
 import hashlib
 import html
 import json
@@ -20,6 +20,7 @@ import math
 import os
 import re
 import shutil
+import signal
 import subprocess
 import sys
 import time
@@ -30,6 +31,8 @@ from dataclasses import asdict, dataclass, field
 from pathlib import Path
 
 import numpy as np
+
+from bolus_validation.locking import FolderBusy, alone_in, locked
 
 ROOT = Path(__file__).parents[2]
 
@@ -279,8 +282,7 @@ def kept_run(tutorial: str, page: str, ranks: int = 1, **settings) -> Path:
     options = _options(settings)
     case = run_folder(tutorial, page, ranks, **settings)
     case.parent.mkdir(parents=True, exist_ok=True)
-    with open(f"{case}.lock", "w") as lock:
-        fcntl.flock(lock, fcntl.LOCK_EX)
+    with locked(Path(f"{case}.lock"), str(case), wait=True):
         if (case / "finished").exists() or (case / "stopped").exists():
             return case
         # Without a solver's log there is nothing to go on from
@@ -376,6 +378,23 @@ def run_all(
         return 2
     chosen = list(names) or [n for n in REGISTRY if not REGISTRY[n].long]
     base = ROOT / "run" / "validate" / page
+    base.mkdir(parents=True, exist_ok=True)
+    try:
+        with alone_in(base):
+            return _run_chosen(base, page, title, chosen, force, workers)
+    except FolderBusy as error:
+        print(f"validate: {error}", file=sys.stderr)
+        return 2
+
+
+def _end_with_parent() -> None:
+    """A worker ends when the command is killed: none is left at work."""
+    pr_set_pdeathsig = 1
+    ctypes.CDLL(None).prctl(pr_set_pdeathsig, signal.SIGTERM)
+
+
+def _run_chosen(base: Path, page, title, chosen, force, workers) -> int:
+    """run_all, alone in the page's folder."""
     results, missing = {}, []
     for name in REGISTRY:
         path = base / name / "result.json"
@@ -394,7 +413,9 @@ def run_all(
         f"{len(chosen) - len(missing)} kept",
         flush=True,
     )
-    with ProcessPoolExecutor(max_workers=workers or os.cpu_count()) as pool:
+    with ProcessPoolExecutor(
+        max_workers=workers or os.cpu_count(), initializer=_end_with_parent
+    ) as pool:
         futures = [pool.submit(_run_one, *job) for job in missing]
         for n, future in enumerate(as_completed(futures), 1):
             result = future.result()
@@ -515,6 +536,5 @@ def _write_page(base: Path, page: str, title: str, results: dict) -> None:
         + "\n".join(_section(base, r) for r in ordered)
         + "</body></html>"
     )
-    base.mkdir(parents=True, exist_ok=True)
     (base / f"{page}.html").write_text(text)
     (base / f"{page}.json").write_text(json.dumps(ordered, indent=1))

@@ -13,7 +13,8 @@ import re
 import sys
 from pathlib import Path
 
-from bolus_validation.fields import FoamFileError
+from bolus_validation.foam_files import FoamFileError
+from bolus_validation.locking import alone_in
 
 # (title, path of the number in results.json, factor, unit shown, format)
 _LINES = (
@@ -156,9 +157,11 @@ def main(arguments=None) -> int:
     options = parser.parse_args(arguments)
     try:
         target = options.case / "summary.txt"
-        target.write_text(summary(options.case))
+        text = summary(options.case)
+        with alone_in(options.case):
+            target.write_text(text)
         print(target)
-    except FoamFileError as error:
+    except (FoamFileError, OSError) as error:
         print(f"summary: {error}", file=sys.stderr)
         return 1
     return 0

@@ -8,7 +8,6 @@ is kept in mutations.json; a study that was stopped goes on.
 """
 
 import argparse
-import fcntl
 import hashlib
 import json
 import os
@@ -17,6 +16,10 @@ import subprocess
 import sys
 from dataclasses import dataclass
 from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).parents[1]))
+
+from bolus_validation.locking import FolderBusy, alone_in  # noqa: E402
 
 ROOT = Path(__file__).parents[2]
 BASE = ROOT / "run" / "validate" / "mutations"
@@ -566,18 +569,19 @@ def fresh_copy() -> None:
 
 def main(names) -> int:
     """Run the mutations, or those whose name holds one of the words given."""
+    BASE.mkdir(parents=True, exist_ok=True)
+    # Two at once would break each other's copy
+    with alone_in(BASE):
+        return mutate(names)
+
+
+def mutate(names) -> int:
+    """main, alone in the folder."""
     store = BASE / "mutations.json"
     seen = json.loads(store.read_text()) if store.exists() else {}
     chosen = [
         m for m in MUTATIONS if not names or any(n in m.name for n in names)
     ]
-    BASE.mkdir(parents=True, exist_ok=True)
-    # Two at once would break each other's copy
-    lock = open(BASE / "lock", "w")  # noqa: SIM115: held until the end
-    try:
-        fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except BlockingIOError:
-        sys.exit(f"mutations: another run of this command is at work in {BASE}")
     fresh_copy()
     passed: set[str] = set()
     for number, m in enumerate(chosen, 1):
@@ -613,4 +617,7 @@ def main(names) -> int:
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("names", nargs="*", help="words; default: all")
-    sys.exit(main(parser.parse_args().names))
+    try:
+        sys.exit(main(parser.parse_args().names))
+    except FolderBusy as error:
+        sys.exit(f"mutations: {error}")

@@ -13,23 +13,15 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).parents[1]))
 
 from bolus_validation import robustness as rough  # noqa: E402
+from bolus_validation.locking import FolderBusy, alone_in  # noqa: E402
 from bolus_validation.robustness_cases import BASES, kill_test  # noqa: E402
 
 ROOT = Path(__file__).parents[2]
 BASE = ROOT / "run" / "validate" / "robustness"
 
-if __name__ == "__main__":
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("names", nargs="*", help=", ".join([*BASES, "kills"]))
-    given = parser.parse_args()
-    names = given.names or [*BASES, "kills"]
-    unknown = set(names) - {*BASES, "kills"}
-    if unknown:
-        sys.exit(
-            f"robustness: no {', '.join(unknown)}; there are "
-            f"{', '.join([*BASES, 'kills'])}"
-        )
-    BASE.mkdir(parents=True, exist_ok=True)
+
+def main(names) -> bool:
+    """Spoil and kill the cases named; was there a fault?"""
     counts, faults = collections.Counter(), []
     for name in names:
         if name == "kills":
@@ -71,4 +63,23 @@ if __name__ == "__main__":
             "while a time was written, largest difference from the run that "
             f"was left alone {worst:.1e}, lost {lost}"
         )
-    sys.exit(bool(faults or lost))
+    return bool(faults or lost)
+
+
+if __name__ == "__main__":
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("names", nargs="*", help=", ".join([*BASES, "kills"]))
+    given = parser.parse_args()
+    names = given.names or [*BASES, "kills"]
+    unknown = set(names) - {*BASES, "kills"}
+    if unknown:
+        sys.exit(
+            f"robustness: no {', '.join(unknown)}; there are "
+            f"{', '.join([*BASES, 'kills'])}"
+        )
+    BASE.mkdir(parents=True, exist_ok=True)
+    try:
+        with alone_in(BASE):
+            sys.exit(main(names))
+    except FolderBusy as error:
+        sys.exit(f"robustness: {error}")

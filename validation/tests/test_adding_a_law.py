@@ -11,6 +11,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 from bolus_validation import rheology
+from bolus_validation.foam_files import expanded
+from bolus_validation.results import read_table
+from bolus_validation.specimens import replace, run_case
 from scipy.optimize import brentq
 
 ROOT = Path(__file__).parents[2]
@@ -18,9 +21,35 @@ PAGE = ROOT / "doc" / "adding-a-law.md"
 FOLDER = "flowStress/Voce"
 
 
-def blocks():
-    """(language, text) of the page's blocks of code."""
-    return re.findall(r"^```(\w+)\n(.*?)^```", PAGE.read_text(), re.M | re.S)
+def blocks(*languages):
+    """The page's blocks of code in these languages."""
+    found = re.findall(r"^```(\w+)\n(.*?)^```", PAGE.read_text(), re.M | re.S)
+    return [text for language, text in found if language in languages]
+
+
+HEADER, CODE = blocks("cpp")
+LINE, PROGRAMME = blocks("text")
+LIBS_OF_POINT, LIBS_OF_CASE, OWN_LAW = blocks("foam")
+
+
+def wmake(source, built):
+    """Build a library of the page into a folder."""
+    done = subprocess.run(
+        ["wmake", "-j", "libso"],
+        cwd=source,
+        env=os.environ | {"FOAM_USER_LIBBIN": str(built), "PWD": str(source)},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr[-3000:]
+
+
+def write_law(folder):
+    """The two files of the page."""
+    folder.mkdir(parents=True)
+    (folder / "VoceFlowStress.H").write_text(HEADER)
+    (folder / "VoceFlowStress.C").write_text(CODE)
 
 
 @pytest.fixture(scope="module")
@@ -33,40 +62,47 @@ def library(tmp_path_factory):
         source,
         ignore=shutil.ignore_patterns("lnInclude", "linux*"),
     )
-    (header, code), (line, _) = (
-        [text for kind, text in blocks() if kind == language]
-        for language in ("cpp", "text")
-    )
-    (source / FOLDER).mkdir()
-    (source / FOLDER / "VoceFlowStress.H").write_text(header)
-    (source / FOLDER / "VoceFlowStress.C").write_text(code)
+    write_law(source / FOLDER)
     files = source / "Make" / "files"
-    files.write_text(line + files.read_text())
+    files.write_text(LINE + files.read_text())
     built = base / "lib"
     built.mkdir()
-    done = subprocess.run(
-        ["wmake", "-j", "libso"],
-        cwd=source,
-        env=os.environ | {"FOAM_USER_LIBBIN": str(built), "PWD": str(source)},
-        capture_output=True,
-        text=True,
-        check=False,
-    )
-    assert done.returncode == 0, done.stderr[-3000:]
+    wmake(source, built)
     return built
 
 
-def test_the_law_of_the_page_follows_its_equation(
-    library, tmp_path, monkeypatch
-):
-    monkeypatch.setenv(
-        "LD_LIBRARY_PATH",
-        f"{library}:{os.environ.get('LD_LIBRARY_PATH', '')}",
-    )
-    text = [text for kind, text in blocks() if kind == "text"][1]
-    done = rheology.run_material_point(text, tmp_path)
-    assert done.returncode == 0, done.stdout + done.stderr
-    table = rheology.read_table(tmp_path / "point.dat")["compression"]
+@pytest.fixture(scope="module")
+def own_library(tmp_path_factory):
+    """The page's library of one's own; its folder."""
+    base = tmp_path_factory.mktemp("own")
+    write_law(base / "myFlowStress")
+    make = base / "myFlowStress" / "Make"
+    make.mkdir()
+    for name, text in zip(("files", "options"), blocks("make"), strict=True):
+        (make / name).write_text(text)
+    built = base / "lib"
+    built.mkdir()
+    # Where -lbolusRheology is looked for
+    rheology_built = Path(os.environ["FOAM_USER_LIBBIN"], "libbolusRheology.so")
+    (built / rheology_built.name).symlink_to(rheology_built)
+    wmake(base / "myFlowStress", built)
+    return built
+
+
+@pytest.fixture
+def load(monkeypatch):
+    """Have programs look for libraries in a folder first."""
+
+    def first(folder):
+        path = f"{folder}:{os.environ.get('LD_LIBRARY_PATH', '')}"
+        monkeypatch.setenv("LD_LIBRARY_PATH", path)
+
+    return first
+
+
+def follows_its_equation(path) -> bool:
+    """Does the table of materialPoint have the stress of Voce's law?"""
+    table = rheology.read_table(path)["compression"]
     strain, stress = abs(table["axialStrain"]), abs(table["axialStress"])
 
     def exact(e):
@@ -80,11 +116,119 @@ def test_the_law_of_the_page_follows_its_equation(
     late = strain > 0.001
     assert late.sum() > 50
     expected = np.array([exact(e) for e in strain[late]])
-    assert stress[late] == pytest.approx(expected, rel=1e-3)
+    return stress[late] == pytest.approx(expected, rel=1e-3)
+
+
+def test_the_law_of_the_page_follows_its_equation(library, tmp_path, load):
+    load(library)
+    done = rheology.run_material_point(PROGRAMME, tmp_path)
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert follows_its_equation(tmp_path / "point.dat")
 
 
 def test_without_the_line_the_law_is_not_known(tmp_path):
-    text = [text for kind, text in blocks() if kind == "text"][1]
-    done = rheology.run_material_point(text, tmp_path)
+    done = rheology.run_material_point(PROGRAMME, tmp_path)
     assert done.returncode != 0
     assert "Voce" in done.stderr and "HerschelBulkley" in done.stderr
+
+
+def test_the_code_of_the_page_has_the_form_that_is_checked():
+    for text in (HEADER, CODE):
+        done = subprocess.run(
+            ["clang-format", f"--style=file:{ROOT / '.clang-format'}"],
+            input=text,
+            capture_output=True,
+            text=True,
+            check=True,
+        )
+        assert done.stdout == text
+        assert "SPDX-License-Identifier: GPL-3.0-or-later" in text
+
+
+def test_the_commands_of_the_page_put_the_law_into_the_inputs(tmp_path):
+    # The clone's sources and what these commands need
+    for name in ("src", "applications", "doc", "scripts", "validation"):
+        shutil.copytree(
+            ROOT / name,
+            tmp_path / name,
+            ignore=shutil.ignore_patterns("lnInclude", "linux*", "*.so"),
+        )
+    for name in (".clang-format", "pyproject.toml", ".shellcheckrc"):
+        shutil.copy(ROOT / name, tmp_path / name)
+    (tmp_path / ".local").mkdir()
+    (tmp_path / ".local" / "venv").symlink_to(ROOT / ".local" / "venv")
+    write_law(tmp_path / "src" / "rheology" / FOLDER)
+    inputs = tmp_path / "doc" / "inputs.md"
+    assert "VoceFlowStress" not in inputs.read_text()
+    (commands,) = blocks("bash")
+    done = subprocess.run(
+        ["bash", "-e", "-c", commands],
+        cwd=tmp_path,
+        env={**os.environ, "PYTHONPATH": "", "PWD": str(tmp_path)},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert "| Q | what hardening adds [Pa] | yes | >= 0 |" in inputs.read_text()
+
+
+def test_a_library_of_ones_own_serves_the_rheometer(
+    own_library, tmp_path, load
+):
+    load(own_library)
+    done = rheology.run_material_point(LIBS_OF_POINT + PROGRAMME, tmp_path)
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert follows_its_equation(tmp_path / "point.dat")
+
+
+def test_a_library_that_is_not_there_is_told(tmp_path):
+    done = rheology.run_material_point(LIBS_OF_POINT + PROGRAMME, tmp_path)
+    assert done.returncode != 0
+    assert 'not all of 1("libmyFlowStress.so") can be loaded' in done.stderr
+
+
+@pytest.fixture
+def own_case(own_library, tmp_path, load):
+    """The page's case: that of the stomach with its list and its law."""
+    load(own_library)
+    case = tmp_path / "myCase"
+    shutil.copytree(ROOT / "tutorials" / "gastric" / "caseA", case)
+    replace(
+        case / "system" / "controlDict", r"\nlibs\n\([^)]*\);\n", LIBS_OF_CASE
+    )
+    replace(
+        case / "constant" / "bolusProperties",
+        r"tutorials/common/law\"\n",
+        'tutorials/common/law"\n' + OWN_LAW,
+    )
+    # Pictures and comparison have their own tests
+    replace(case / "Allrun", r"\nfinish[^\0]*", "\n")
+    return case
+
+
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_a_library_of_ones_own_serves_a_case(own_case, tmp_path, ranks):
+    out = tmp_path / f"run{ranks}"
+    run_case(
+        *(own_case, "-np", ranks, "-out", out),
+        *("-set", "resolution=2e-3", "-set", "pylorusRefinement=2.5"),
+        *("-set", "endTime=0.02", "-set", "deltaT=0.01"),
+    )
+    assert read_table(out, "solver", "steps").time[-1] == pytest.approx(0.02)
+    assert expanded(out, "constant/bolusProperties")["flowStress.Q"] == "3000"
+
+
+def test_what_the_own_law_leaves_out_is_not_taken_from_the_included_one(
+    own_case, tmp_path
+):
+    properties = own_case / "constant" / "bolusProperties"
+    replace(
+        properties, r"type\s+Voce;[^}]*", "type HerschelBulkley;\n k 1; n 1;"
+    )
+    said = run_case(
+        *(own_case, "-out", tmp_path / "run"),
+        *("-set", "law=HerschelBulkley", "-set", "resolution=2e-3"),
+        ok=False,
+    )
+    assert "Missing entry sigma0" in said

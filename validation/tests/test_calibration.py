@@ -6,7 +6,11 @@ The curves are made by bolus_validation.rheology, which shares nothing with the
 marching of bolus_calibration.model.
 """
 
+import fcntl
 import json
+import os
+import shutil
+import subprocess
 from pathlib import Path
 
 import numpy as np
@@ -22,6 +26,10 @@ from bolus_calibration.model import (
     Tabulated,
 )
 from bolus_validation import rheology as theory
+from bolus_validation.foam_files import expanded
+from bolus_validation.locking import NAME
+from bolus_validation.specimens import replace
+from bolus_validation.synthetic import write_file
 
 ROOT = Path(__file__).parents[2]
 TABLE = theory.Tabulated(theory.RATES, theory.STRESSES)
@@ -196,6 +204,101 @@ def test_shear_columns_are_converted_by_eqs_4_and_5(tmp_path):
     assert curve.rate == pytest.approx(0.3 / np.sqrt(3))
 
 
+# One curve at 0.1/s of log strain, of 10 kPa true stress
+LOG = np.linspace(0.05, 0.5, 10)
+SAID = {
+    ("true", "strain"): (
+        LOG,
+        "True strain",
+        "logarithmicStrain",
+        "HENCKY_STRAIN",
+    ),
+    ("true", "stress"): (10 * np.ones(10), "Stress, true", "cauchyStress"),
+    ("engineering", "strain"): (
+        1 - np.exp(-LOG),
+        "engineering strain",
+        "nominalStrain",
+        "Strain",
+    ),
+    ("engineering", "stress"): (
+        10 * np.exp(LOG),
+        "Engineering-stress",
+        "stress nominal",
+        "Stress",
+    ),
+}
+
+
+@pytest.mark.parametrize("strain", ["true", "engineering"])
+@pytest.mark.parametrize("stress", ["true", "engineering"])
+def test_strain_and_stress_are_what_the_header_says_and_no_guess(
+    tmp_path, strain, stress
+):
+    path = tmp_path / "said.csv"
+    strains, *strain_names = SAID[strain, "strain"]
+    stresses, *stress_names = SAID[stress, "stress"]
+    for first in strain_names:
+        for second in stress_names:
+            path.write_text(
+                f"Time (s);{first} (%);{second} (kPa);note\n"
+                + "".join(
+                    f"{10 * e};{100 * a:.12g};{b:.12g};x\n"
+                    for e, a, b in zip(LOG, strains, stresses, strict=True)
+                )
+            )
+            (curve,) = read(path)
+            assert curve.strain == pytest.approx(LOG)
+            assert curve.stress == pytest.approx(1e4 * np.ones(10))
+            remarks = "\n".join(curve.remarks)
+            assert "columns not used: note" in remarks
+            # What the header leaves open is engineering, and said so
+            assert ("strain as engineering" in remarks) == (first == "Strain")
+            assert ("stress as engineering" in remarks) == (second == "Stress")
+
+
+@pytest.mark.parametrize("strain", ["true", "engineering"])
+def test_a_rate_without_time_is_that_of_the_strain_as_given(tmp_path, strain):
+    strains, name, *_ = SAID[strain, "strain"]
+    path = tmp_path / "rate.csv"
+    path.write_text(
+        f"# rate: 6 1/min\n{name} [-];True stress [kPa]\n"
+        + "".join(f"{e:.12g};{i}\n" for i, e in enumerate(strains))
+    )
+    (curve,) = read(path)
+    # 0.1/s: of the height that is, or of the first one
+    assert curve.time == pytest.approx(
+        strains / 0.1 if strain == "true" else curve.time
+    )
+    assert np.diff(curve.time) == pytest.approx(np.diff(strains) / 0.1)
+    said = "rate is taken as that of the engineering strain"
+    assert (said in "\n".join(curve.remarks)) == (strain == "engineering")
+
+
+def test_rates_that_waver_do_not_matter_beside_time(tmp_path):
+    path = tmp_path / "waver.csv"
+    path.write_text(
+        "time [s],Strain rate (%/s),True strain [-],True stress [kPa]\n"
+        + "".join(f"{t},{10 + t % 3},{0.1 * t},{t}\n" for t in range(1, 11))
+        # Held
+        + "".join(f"{t},0,1,{20 - t}\n" for t in range(11, 18))
+    )
+    (curve,) = read(path)
+    assert curve.rate == pytest.approx(0.1)
+
+
+def test_what_looks_odd_is_taken_as_it_is_and_said(tmp_path):
+    path = tmp_path / "odd.csv"
+    path.write_text(
+        "time [s];engineeringStrain [%];trueStress [kPa]\n"
+        + "".join(f"{t};{0.3 + 0.01 * t};{t}\n" for t in range(1, 11))
+    )
+    (curve,) = read(path)
+    assert curve.strain[-1] == pytest.approx(0.004, rel=1e-2)
+    remarks = "\n".join(curve.remarks)
+    assert "reaches 0.4 %; if that is no percentage" in remarks
+    assert "first row is at 77 % of the largest strain" in remarks
+
+
 def test_compression_given_as_negative_is_the_same(tmp_path):
     (positive,) = read(texture_analyser(tmp_path))
     (negative,) = read(texture_analyser(tmp_path, sign=-1))
@@ -217,7 +320,7 @@ def test_loading_relaxation_and_unloading_are_found(tmp_path):
     rows += [(30 + 0.1 * t, 1 - 0.01 * t, 3 - 0.5 * t) for t in range(1, 6)]
     path = tmp_path / "all.csv"
     path.write_text(
-        "time [s],strain [-],stress [kPa]\n"
+        "time [s],trueStrain [-],trueStress [kPa]\n"
         + "".join(f"{t},{e},{s}\n" for t, e, s in rows)
     )
     (curve,) = read(path)
@@ -228,7 +331,7 @@ def test_loading_relaxation_and_unloading_are_found(tmp_path):
     ]
 
 
-GOOD = "time [s],strain [-],stress [kPa]\n" + "".join(
+GOOD = "time [s],trueStrain [-],trueStress [kPa]\n" + "".join(
     f"{t},{0.1 * t},{t}\n" for t in range(1, 11)
 )
 
@@ -237,20 +340,26 @@ GOOD = "time [s],strain [-],stress [kPa]\n" + "".join(
     "text, message",
     [
         ("", "no table"),
-        (GOOD.replace("stress", "stres"), "needed are one of strain"),
+        (GOOD.replace("Stress", "Stres"), "needed are one of strain"),
         (GOOD.replace("[kPa]", "[psi]"), "unknown unit 'psi'; valid are Pa"),
         (GOOD.replace(" [kPa]", ""), "lacks its unit"),
-        (GOOD.replace(",5\n", ",nan\n"), "line 6: stress: 'nan' is not a fini"),
-        (GOOD.replace(",5\n", ",\n"), "line 6: stress: '' is not a finite"),
+        (
+            GOOD.replace(",5\n", ",nan\n"),
+            "line 6: trueStress: 'nan' is not a fini",
+        ),
+        (GOOD.replace(",5\n", ",\n"), "line 6: trueStress: '' is not a finite"),
         (GOOD.replace(",5\n", ",x\n"), "'x' is not a finite number"),
         (GOOD.replace(",5\n", "\n"), "line 6: 2 values, fewer than columns"),
         (GOOD.replace(",9\n", ",-9\n"), "tension and compression in one"),
         (GOOD[: GOOD.index("5,")], "at least 8 are needed"),
         (GOOD.replace("time [s]", "when"), "no rate"),
-        (GOOD.replace("strain [-]", "displacement [mm]"), "'# height: VALUE"),
+        (
+            GOOD.replace("trueStrain [-]", "displacement [mm]"),
+            "'# height: VALUE",
+        ),
         (
             "# height: -2 mm\n"
-            + GOOD.replace("strain [-]", "displacement [mm]"),
+            + GOOD.replace("trueStrain [-]", "displacement [mm]"),
             "height is -2; it must be positive",
         ),
         (
@@ -258,16 +367,34 @@ GOOD = "time [s],strain [-],stress [kPa]\n" + "".join(
             "height: unknown unit 'inch'; valid are m, mm, um",
         ),
         (
-            GOOD.replace("strain [-]", "engineeringStrain [-]"),
+            GOOD.replace("trueStrain [-]", "engineeringStrain [-]"),
             "must stay below 1",
         ),
         (
-            GOOD.replace("strain", "strain [-], shearStrain").replace(
+            GOOD.replace("trueStrain", "strain [-], shearStrain").replace(
                 "[kPa]", "[kPa], shearStress [Pa]"
             ),
             "values, fewer than columns",
         ),
-        (GOOD.replace("time [s]", "strain [-]"), "two columns strain"),
+        (GOOD.replace("time [s]", "trueStrain [-]"), "two columns trueStrain"),
+        (GOOD.replace("time [s]", "Hencky strain [%]"), "two columns trueSt"),
+        (GOOD.replace("trueStrain", "strain"), "a logarithmic strain is a tr"),
+        (GOOD.replace(",0.", ",50."), "a percentage has the unit %"),
+        (GOOD.replace(",5\n", ",5,1\n"), "line 6: 4 values, more than col"),
+        ("# rate: 1 1/s\n" + GOOD, "rate is 1/s, but by time and strain 0.1"),
+        (
+            "# rate: 1 1/s\n# rate = 2 1/s\n" + GOOD,
+            "a second rate, other than the first",
+        ),
+        (
+            GOOD.replace("time [s]", "rate [1/s]"),
+            "rates from 1 to 10/s; valid is one rate",
+        ),
+        (
+            "# area: 100 mm2\n# diameter: 20 mm\n"
+            + GOOD.replace("trueStress [kPa]", "force [N]"),
+            "but by the diameter 0.0003142 m2",
+        ),
     ],
 )
 def test_bad_data_get_one_clear_error(tmp_path, capsys, text, message):
@@ -312,6 +439,100 @@ def test_the_command_writes_a_material_that_the_rheometer_confirms(tmp_path):
         15200, rel=0.02
     )
     assert (out / "calibration.png").stat().st_size > 10000
+
+
+# --- installed laws ----------------------------------------------------------
+
+
+@pytest.fixture
+def installed(tmp_path):
+    """A name, and its file in laws/; nothing of it stays."""
+    name = f"testLaw{os.getpid()}"
+    path = ROOT / "laws" / f"bolusProperties.{name}"
+    was_there = path.parent.is_dir()
+    yield name, path
+    path.unlink(missing_ok=True)
+    if not was_there and path.parent.is_dir():
+        path.parent.rmdir()
+
+
+def by_name(name):
+    """A one-cell programme with the law that a case has by -set law=NAME."""
+    return (
+        f"bolusProperties {{ law {name}; "
+        '#include "$BOLUSFOAM_DIR/tutorials/common/law"\n}\n'
+        "segments { a { mode uniaxial; rate 0.1; strain -0.01; } }"
+    )
+
+
+def test_an_installed_law_is_found_by_its_name_and_is_no_part_of_the_clone(
+    tmp_path, installed, capsys
+):
+    name, path = installed
+    data = str(texture_analyser(tmp_path))
+    command = [data, "-out", str(tmp_path / "out"), "-name", name, "-install"]
+    assert main(command) == 0
+    assert f"-set law={name}" in capsys.readouterr().out
+    assert "powerHardening" in path.read_text()
+    # Neither git nor the tests of what ships see it
+    if (ROOT / ".git").exists():
+        subprocess.run(
+            ["git", "check-ignore", "-q", path], cwd=ROOT, check=True
+        )
+    assert path.parent != MATERIALS[0].parent
+
+    done = theory.run_material_point(by_name(name), tmp_path)
+    assert done.returncode == 0, done.stderr
+    found = json.loads((tmp_path / "out" / "calibration.json").read_text())
+    e = found["laws"][0]["numbers"]["E"]["value"]
+    table = theory.read_table(tmp_path / "point.dat")["a"]
+    slope = table["axialStress"][1] / table["axialStrain"][1]
+    # At the first row, a strain of 1e-4, hardly anything flows
+    assert slope == pytest.approx(e, rel=0.05)
+
+    assert main(command) == 1
+    assert "take another -name, or remove it" in capsys.readouterr().err
+
+
+def test_cases_find_laws_by_their_names(tmp_path, installed):
+    name, path = installed
+    path.parent.mkdir(exist_ok=True)
+    path.write_text('lawFolder "laws";\nelasticity { E 12345; }\n')
+    for case, file in (
+        ("gastric/caseA", "system/caseParameters"),
+        ("cutting/cylinder2D", "constant/bolusProperties"),
+    ):
+        copy = tmp_path / case
+        for part in ("constant", "system"):
+            shutil.copytree(ROOT / "tutorials" / case / part, copy / part)
+        # Made by the tutorial's Allrun
+        write_file(
+            copy / "system" / "derivedParameters", "voidZeta 1; voidEta 1;"
+        )
+        for law, modulus in ((name, 12345), ("viscoplastic", 1e5)):
+            replace(copy / file, r"\nlaw\s+\w+;", f"\nlaw {law};")
+            found = expanded(copy, "constant/bolusProperties")
+            assert float(found["elasticity.E"]) == modulus, case
+
+
+def test_a_law_that_there_is_not_and_a_name_that_is_taken_are_refused(
+    tmp_path, capsys
+):
+    done = theory.run_material_point(by_name("noLaw"), tmp_path)
+    assert done.returncode != 0
+    assert "tutorials/common/bolusProperties.noLaw" in done.stderr
+    data = str(texture_analyser(tmp_path))
+    assert main([data, "-name", "JLaw", "-install"]) == 1
+    assert "bolusProperties.JLaw; take another" in capsys.readouterr().err
+
+
+def test_two_calibrations_do_not_mix_in_one_folder(tmp_path, capsys):
+    data = str(texture_analyser(tmp_path))
+    with open(tmp_path / NAME, "a+") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        assert main([data, "-out", str(tmp_path)]) == 1
+    assert "is at work in it" in capsys.readouterr().err
+    assert not (tmp_path / "calibration.json").exists()
 
 
 # --- materials that ship -----------------------------------------------------

@@ -4,7 +4,8 @@
 
 import numpy as np
 import pytest
-from bolus_validation.fields import Case, FoamFileError
+from bolus_validation.fields import Case
+from bolus_validation.foam_files import FoamFileError
 from bolus_validation.specimens import SLIDING, box, solve
 from bolus_validation.synthetic import run, run_parallel, write_field
 

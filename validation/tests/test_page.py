@@ -14,7 +14,7 @@ from pathlib import Path
 
 import pytest
 from bolus_validation import page
-from bolus_validation.fields import FoamFileError
+from bolus_validation.foam_files import FoamFileError
 from bolus_validation.specimens import compression
 from matplotlib import image
 

@@ -11,7 +11,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 from bolus_validation import plots, report, results
-from bolus_validation.fields import Case, FoamFileError, read_field
+from bolus_validation.fields import Case
+from bolus_validation.foam_files import FoamFileError, read_field
 from bolus_validation.synthetic import (
     HALF_ANGLE,
     octant_mesh,
@@ -107,7 +108,7 @@ def test_short_forms_of_fields_are_read(tmp_path, entry, expected):
 @pytest.mark.parametrize(
     ("text", "says"),
     [
-        ("FoamFile { format binary; }\ninternalField", "valid is ascii"),
+        ("FoamFile { format hex; }\ninternalField", "valid are ascii and"),
         ("internalField nonuniform List<scalar> 3(1 2 3);", "4 cells"),
         ("boundaryField {}", "no internalField"),
     ],
@@ -243,6 +244,16 @@ def test_a_continued_table_takes_the_place_of_the_rest(tmp_path):
     assert table.at("work", 7) is None
     with pytest.raises(FoamFileError, match="no table"):
         results.read_table(tmp_path, "nothing")
+
+
+def test_tables_of_nanoseconds_are_continued_and_read_alike(tmp_path):
+    head = ("Time [s]", "work [J]")
+    write_table(tmp_path, "w", "0", head, [(t * 1e-10, t) for t in range(6)])
+    write_table(tmp_path, "w", "3e-10", head, [(4e-10, 40), (5e-10, 50)])
+    table = results.read_table(tmp_path, "w")
+    assert table["work"].tolist() == [0, 1, 2, 3, 40, 50]
+    assert table.at("work", 4.5e-10) == pytest.approx(45)
+    assert table.at("work", 6e-10) is None
 
 
 def write_solver_table(case):

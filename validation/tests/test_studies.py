@@ -43,7 +43,7 @@ def test_a_long_study_runs_only_where_it_is_named(tmp_path, monkeypatch):
     class Here:
         """A pool of this process."""
 
-        def __init__(self, max_workers):
+        def __init__(self, max_workers, initializer):
             pass
 
         def __enter__(self):

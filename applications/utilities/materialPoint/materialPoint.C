@@ -26,6 +26,7 @@ Usage
         maxStrainIncrement | largest step of a strain [-]            | no | 1e-5
         rows               | rows of the table for each segment      | no | 100
         openingViscosity   | see materialSpecimen [Pa s]             | no | 100
+        libs               | libraries of laws of your own           | no | none
         checkTangent       | yes: compare the consistent tangent with finite \
                              differences at each row, and fail beyond a \
                              relative difference of 1e-6             | no | no
@@ -62,6 +63,7 @@ Usage
 
 #include "Fstream.H"
 #include "argList.H"
+#include "dlLibraryTable.H"
 #include "entryReader.H"
 #include "loadingSegment.H"
 #include "materialSpecimen.H"
@@ -189,6 +191,16 @@ int main(int argc, char* argv[])
                                   "no"
                               )
         == "yes";
+
+    // Before the specimen, whose law may be in one of them
+    dlLibraryTable libraries;
+    if (read.has("libs") && !libraries.open(dict, "libs"))
+    {
+        FatalIOErrorInFunction(dict)
+            << "Entry libs: not all of " << dict.get<fileNameList>("libs")
+            << " can be loaded; valid are libraries by their path, or those "
+            << "on LD_LIBRARY_PATH" << exit(FatalIOError);
+    }
 
     read.rejectOthers();
 
