@@ -3,6 +3,7 @@
 """./Allrun calibrate: see bolus_calibration.data for what a file may hold."""
 
 import argparse
+import os
 import re
 import sys
 from pathlib import Path
@@ -54,7 +55,8 @@ def arguments(given=None) -> argparse.Namespace:
         parser.error(
             f"-name {options.name}: letters, digits, _ and - make a name"
         )
-    options.out = options.out or ROOT / "run" / "calibrate" / options.name
+    runs = Path(os.environ.get("BOLUSFOAM_RUNS", ROOT / "run"))
+    options.out = options.out or runs / "calibrate" / options.name
     if not options.rho > 0:
         parser.error(f"-rho {options.rho}: it must be positive")
     if not 0 <= options.nu < 0.5:
