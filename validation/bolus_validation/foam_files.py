@@ -16,6 +16,7 @@ import subprocess
 import zlib
 from dataclasses import dataclass
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 import numpy as np
 
@@ -284,26 +285,54 @@ def entries(text: str) -> dict[str, str]:
     }
 
 
+def messages(text: str) -> list[tuple[str, str]]:
+    """Warnings and errors of OpenFOAM in what it printed: (kind, text)."""
+    found = []
+    for kind, rest in re.findall(
+        r"--> FOAM (FATAL|Warning)[^\n]*\n(.*?)(?=\n *\n|--> FOAM|\Z)",
+        re.sub(r"^\[\d+\] ?", "", text, flags=re.MULTILINE),
+        re.DOTALL,
+    ):
+        said = re.sub(r"^ *(From function|in file) .*\n?", "", rest, flags=re.M)
+        found.append((kind, " ".join(said.split())))
+    return found
+
+
+def foam_dictionary(case: Path, name: str) -> tuple[str, str]:
+    """A dictionary of a case, includes and macros expanded, and what was said
+    beside it.
+
+    Raises FoamFileError with what foamDictionary says of one it cannot read.
+    """
+    with TemporaryDirectory() as folder:
+        # By another name: OpenFOAM cannot read all that a path may hold
+        link = Path(folder) / "case"
+        link.symlink_to(Path(case).resolve())
+        try:
+            done = subprocess.run(
+                ["foamDictionary", "-expand", name],
+                cwd=link,
+                # OpenFOAM warns where it is not that of the folder
+                env=os.environ | {"PWD": str(link)},
+                capture_output=True,
+                text=True,
+                check=False,
+            )
+        except FileNotFoundError:
+            raise FoamFileError(
+                f"{case / name}: no foamDictionary to read it with; source "
+                "scripts/environment"
+            ) from None
+    if done.returncode:
+        raise FoamFileError(f"{case / name}: {done.stderr.strip()[-300:]}")
+    # What comes before the banner is not of the dictionary
+    start = max(done.stdout.find("/*-------"), 0)
+    return done.stdout[start:], done.stdout[:start] + done.stderr
+
+
 def expanded(case: Path, name: str) -> dict[str, str]:
     """The entries of a dictionary of a case, includes and macros expanded.
 
     Raises FoamFileError with what foamDictionary says of one it cannot read.
     """
-    try:
-        done = subprocess.run(
-            ["foamDictionary", "-expand", name],
-            cwd=case,
-            # OpenFOAM warns where it is not that of the folder
-            env=os.environ | {"PWD": str(Path(case).resolve())},
-            capture_output=True,
-            text=True,
-            check=False,
-        )
-    except FileNotFoundError:
-        raise FoamFileError(
-            f"{case / name}: no foamDictionary to read it with; source "
-            "scripts/environment"
-        ) from None
-    if done.returncode:
-        raise FoamFileError(f"{case / name}: {done.stderr.strip()[-300:]}")
-    return entries(done.stdout)
+    return entries(foam_dictionary(case, name)[0])

@@ -18,6 +18,7 @@ import html
 import json
 import re
 import sys
+from collections import Counter
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -29,7 +30,12 @@ from matplotlib.colors import Normalize
 
 from bolus_validation import plots
 from bolus_validation.fields import Case
-from bolus_validation.foam_files import FoamFileError, expanded
+from bolus_validation.foam_files import (
+    FoamFileError,
+    entries,
+    foam_dictionary,
+    messages,
+)
 from bolus_validation.locking import alone_in
 from bolus_validation.results import (
     PAPER_TIMES,
@@ -52,6 +58,10 @@ MASS_LIMIT = 1e-3  # [-]
 ENERGY_LIMIT = 0.01  # residual, of the work [-]
 SHARE_LIMIT = 0.02  # of one artificial viscosity, of the work [-]
 SPILL_LIMIT = 1e-3  # of the bolus [-]
+# A patch "wall" of type wall, as the gastric cases have it
+HARMLESS = (
+    r"Removed patchGroup '(\w+)' which clashes with patch \d+ of the same"
+)
 # [J]; below it no share of the work says anything
 LEAST_WORK = 1e-9
 
@@ -70,16 +80,19 @@ class Shown:
 # --- what is told of a case -----------------------------
 
 
-def read_inputs(path: Path) -> dict[str, dict[str, str]]:
-    """The dictionaries of a case, includes and macros expanded."""
-    found = {}
+def read_inputs(path: Path) -> tuple[dict[str, dict[str, str]], list[str]]:
+    """The dictionaries of a case, includes and macros expanded; warnings."""
+    found, warnings = {}, []
     for name in INPUTS:
         if (path / name).is_file():
             try:
-                found[name] = expanded(path, name)
+                text, said = foam_dictionary(path, name)
             except FoamFileError as error:
                 found[name] = {"(not readable)": str(error)}
-    return found
+                continue
+            found[name] = entries(text)
+            warnings += [f"{name}: {kind}: {it}" for kind, it in messages(said)]
+    return found, warnings
 
 
 def find(results: dict, place: str) -> float | None:
@@ -102,17 +115,10 @@ def warn(path: Path, results: dict, inputs: dict) -> list[str]:
     elif np.isfinite(end) and reached < end * (1 - 1e-6):
         found.append(f"The run ended at {reached:g} s, before its {end:g} s.")
     for log in sorted(path.glob("log.*")):
-        text = log.read_text(errors="replace")
-        for kind in ("FATAL", "Warning"):
-            count = len(re.findall(rf"--> FOAM {kind}", text))
-            if count:
-                first = re.search(
-                    rf"--> FOAM {kind}.*?at line \d+\.?\s(.{{0,160}})",
-                    text,
-                    re.DOTALL,
-                )
-                said = " ".join(first.group(1).split()) if first else ""
-                found.append(f"{log.name}: {kind}, {count} times: {said}")
+        told = Counter(messages(log.read_text(errors="replace")))
+        for (kind, said), count in told.items():
+            if not re.search(HARMLESS, said):
+                found.append(f"{log.name}: {kind}, {count} times: {said[:160]}")
     for place, limit, what in (
         ("run.maxMassError", MASS_LIMIT, "largest mass error"),
         ("run.spilled", SPILL_LIMIT, "bolus passed on where cells overfilled"),
@@ -166,10 +172,9 @@ def show(path: Path) -> Shown:
     """All that the page tells of a case, but for its pictures."""
     check(path)
     results = collect(path)
-    inputs = read_inputs(path)
-    return Shown(
-        path.resolve().name, path, results, inputs, warn(path, results, inputs)
-    )
+    inputs, warnings = read_inputs(path)
+    warnings += warn(path, results, inputs)
+    return Shown(path.resolve().name, path, results, inputs, warnings)
 
 
 # --- pictures -----------------------------
