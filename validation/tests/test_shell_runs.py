@@ -265,3 +265,29 @@ def test_a_mistyped_entry_is_told_the_nearest(tmp_path, given, meant):
     assert f"Did you mean '{meant}'?" in printed.split("\n")[0]
     assert "endTime = system/controlDict:endTime" in printed
     assert sorted(p.name for p in tmp_path.iterdir()) == ["case"]
+
+
+@pytest.mark.parametrize(
+    "tutorial, settings, told",
+    [
+        # No time is written
+        (
+            "gastric/liquidMeal",
+            ("endTime=0.02", "axialCells=20", "radialCells=4"),
+            "liquidMeal: nothing to measure",
+        ),
+        # No step is made
+        (
+            "rheology/compression",
+            ("strain=0.001", "unloadStrain=0", "nAxial=4", "nRadial=8"),
+            "postProcessing/contactForce: no table contactForce.dat",
+        ),
+    ],
+)
+def test_a_run_too_short_for_its_plot_says_so(
+    tmp_path, tutorial, settings, told
+):
+    options = [word for entry in settings for word in ("-set", entry)]
+    said = run_case(tutorial, "-out", tmp_path / "run", *options, ok=False)
+    assert told in said
+    assert "Traceback" not in said

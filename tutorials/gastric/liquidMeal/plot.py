@@ -21,7 +21,10 @@ def main():
     case = Case(".")
     times = [t for t in case.times if t > 0 and case.has(t, "gradU")]
     if not times:
-        print("no time after the start was written: nothing to measure")
+        print(
+            "note: no time after the start was written: nothing to measure; "
+            "-set endTime=... to at least one writeInterval"
+        )
         return
     speeds = {
         t: case.mesh(t).frame.along(case.field(t, "U")) for t in times
