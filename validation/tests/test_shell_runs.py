@@ -229,6 +229,15 @@ def test_a_run_that_wrote_nothing_is_not_said_to_go_on(tmp_path):
     assert "-continue" not in printed and "start it again" in printed
 
 
+@pytest.mark.parametrize("ranks", [1, 2])
+def test_a_solver_that_was_killed_is_said_to_be(tmp_path, ranks):
+    case = shell_case.make(tmp_path / "case")
+    (case / "solver").write_text("#!/bin/sh\nkill -SEGV $$\n")
+    said = run_case(case, "-out", tmp_path / "run", "-np", ranks, ok=False)
+    assert "ended by the signal SEGV" in said
+    assert "stopped with an error" in said and "by you" not in said
+
+
 def test_a_finished_run_has_nothing_left_to_do(tmp_path):
     case = shell_case.make(tmp_path / "case")
     folder = tmp_path / "run"
