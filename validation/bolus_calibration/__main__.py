@@ -57,6 +57,12 @@ def arguments(given=None) -> argparse.Namespace:
         )
     runs = Path(os.environ.get("BOLUSFOAM_RUNS", ROOT / "run"))
     options.out = options.out or runs / "calibrate" / options.name
+    unread = re.search(r"[\s'\"\\]", str(options.out.resolve()))
+    if unread:
+        parser.error(
+            f"-out {options.out}: its path has {unread.group()!r} in it, which "
+            "OpenFOAM cannot read; name another folder"
+        )
     if not options.rho > 0:
         parser.error(f"-rho {options.rho}: it must be positive")
     if not 0 <= options.nu < 0.5:

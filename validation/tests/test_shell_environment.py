@@ -80,6 +80,18 @@ def test_a_run_goes_on_from_its_last_complete_time(
         assert (folder / name).is_dir()
 
 
+@pytest.mark.parametrize("start", ["0", "-1", "5"])
+def test_the_start_of_a_run_is_not_set_aside(tmp_path, start):
+    case = shell_case.make(tmp_path / "case", times=("20",), allrun=JUDGED)
+    folder = tmp_path / "run"
+    run_case(case, "-out", folder)
+    shutil.rmtree(folder / "20")
+    os.rename(folder / "0", folder / start)
+    run_case(case, "-out", folder, "-continue")
+    assert (folder / start).is_dir()
+    assert not (folder / "incomplete").exists()
+
+
 def test_a_run_may_start_before_zero(tmp_path, german):
     case = shell_case.make(tmp_path / "case", times=("-0.25", "0"))
     control = "system/controlDict"
@@ -183,6 +195,10 @@ def test_the_environment_is_read_whatever_the_users_shell_has(tmp_path):
 # --- paths -------------------------------------------------
 
 
+SMALL = (
+    *("-set", "nAxial=4", "-set", "nRadial=8", "-set", "strain=0.02"),
+    *("-set", "unloadStrain=0", "-set", "strainStep=0.01"),
+)
 BAD = {
     "a b": "a space",
     "a'b": "an apostrophe",
@@ -207,6 +223,25 @@ def test_a_path_that_openfoam_cannot_read_is_refused_first(tmp_path, name):
     # And with a name it runs: nothing is computed in the case's own folder
     run_case(odd, "-out", tmp_path / "run")
     assert (tmp_path / "run" / "1").is_dir()
+
+
+@pytest.mark.parametrize("name", BAD)
+def test_calibrate_refuses_such_a_path_first(tmp_path, name):
+    data = tmp_path / "x.csv"
+    data.write_text("# rate: 0.1 1/s\nstrain [-], stress [kPa]\n")
+    out = tmp_path / name
+    said = run(ROOT / "scripts" / "calibrate", data, "-out", out, ok=False)
+    assert repr(name.strip("ab")) in said and "-out" in said
+    assert not out.exists()
+
+
+def test_a_report_is_written_to_any_path(tmp_path):
+    run_case("rheology/compression", *SMALL, "-out", tmp_path / "run")
+    spoilt = tmp_path / "a b's"
+    os.rename(tmp_path / "run", spoilt)
+    run(ROOT / "scripts" / "report", spoilt, "-out", tmp_path / "p 'q")
+    text = (tmp_path / "p 'q" / "page.html").read_text()
+    assert "(not readable)" not in text and "elasticity.E" in text
 
 
 def test_any_other_path_runs_as_it_is(tmp_path):

@@ -183,12 +183,14 @@ def test_clean_all_leaves_living_runs_and_all_else(tmp_path):
 
 
 def test_the_lock_of_a_run_is_no_part_of_a_copy(living, tmp_path):
-    _, folder = living
-    solver = (shell_case.make(tmp_path / "quick") / "solver").read_text()
-    (folder / "solver").write_text(solver)
-    run_case(folder, "-out", tmp_path / "second")
-    assert (tmp_path / "second" / "1").is_dir()
-    assert not (tmp_path / "second" / "results.json").exists()
+    # A copy of a living run goes its own way, and has a lock of its own
+    case, folder = living
+    process = start(folder, "-out", tmp_path / "second")
+    wait_for_time(tmp_path / "second")
+    said = run_case(case, "-out", tmp_path / "second", ok=False)
+    assert f"process {process.pid} " in said
+    os.killpg(process.pid, signal.SIGKILL)
+    process.communicate()
 
 
 # --- the end of a run --------------------------------------
