@@ -74,7 +74,11 @@ def run_case(*arguments, **options) -> str:
 def start(*arguments) -> subprocess.Popen:
     """scripts/runCase in a group of its own; it goes on."""
     return subprocess.Popen(
-        [ROOT / "scripts" / "runCase", *map(str, arguments)],
+        [
+            # Even if the tests run where an interrupt is ignored
+            *("env", "--default-signal=INT", ROOT / "scripts" / "runCase"),
+            *map(str, arguments),
+        ],
         cwd=ROOT,
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,

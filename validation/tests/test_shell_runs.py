@@ -101,6 +101,18 @@ def test_no_run_is_deleted_as_old_or_moved_with_its_parent(living, tmp_path):
     assert (base / "inner" / "0.5").is_dir()
 
 
+def test_the_old_run_is_free_while_the_new_one_lives(living, tmp_path):
+    case, folder = living
+    run_case(case, "-out", tmp_path / "x")
+    process = start(tmp_path / "slow", "-out", tmp_path / "x")
+    wait_for((tmp_path / "x.old").is_dir)
+    wait_for_time(tmp_path / "x")
+    said = run_case(case, "-out", tmp_path / "x.old", "-continue")
+    assert "nothing left to do" in said
+    os.killpg(process.pid, signal.SIGKILL)
+    process.communicate()
+
+
 def test_what_is_not_ours_is_not_deleted_as_old(tmp_path):
     case = shell_case.make(tmp_path / "case")
     run_case(case, "-out", tmp_path / "run")
