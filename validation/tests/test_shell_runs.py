@@ -113,16 +113,28 @@ def test_the_old_run_is_free_while_the_new_one_lives(living, tmp_path):
     process.communicate()
 
 
-def test_what_is_not_ours_is_not_deleted_as_old(tmp_path):
+@pytest.mark.parametrize("name", ["run.old", "run.new"])
+def test_what_is_not_ours_is_not_deleted(tmp_path, name):
     case = shell_case.make(tmp_path / "case")
     run_case(case, "-out", tmp_path / "run")
-    mine = tmp_path / "run.old" / "thesis"
+    mine = tmp_path / name / "thesis"
     mine.parent.mkdir()
     mine.write_text("years")
     printed = run_case(case, "-out", tmp_path / "run", ok=False)
-    assert "run.old is in the way" in printed
+    assert f"{name} is in the way" in printed
     assert mine.read_text() == "years"
     assert (tmp_path / "run" / "1").is_dir()
+
+
+def test_a_case_is_not_deleted_for_its_copy(tmp_path):
+    case = shell_case.make(tmp_path / "case")
+    for _ in range(2):
+        run_case(case, "-out", tmp_path / "run")
+    before = tree(tmp_path)
+    for options in (("run.old", "run"), ("case", "case/inner")):
+        source, out = (tmp_path / name for name in options)
+        run_case(source, "-out", out, ok=False)
+    assert tree(tmp_path) == before
 
 
 def test_a_solver_that_outlives_its_script_keeps_the_folder(tmp_path):
