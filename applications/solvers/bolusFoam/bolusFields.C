@@ -247,7 +247,7 @@ Foam::bolusFields::bolusFields(
 
     // What is there without a memory is a start: transport may leave a cell
     // overfull, people may not
-    if (min(mass).value() < 0)
+    if (min(mass).value() < -0.5)
     {
         const scalar roundOff = 1e-6;
         if (min(alpha).value() < -roundOff || max(alpha).value() > 1 + roundOff)

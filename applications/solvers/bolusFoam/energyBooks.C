@@ -143,7 +143,7 @@ void Foam::energyBooks::step(const coupledSystem& system, const scalar deltaT)
         "inertiaLoss",
         "outflow"
     };
-    scalarList sums(
+    scalarField sums(
         {P.walls,
             P.closure,
             P.elastic,
@@ -159,8 +159,7 @@ void Foam::energyBooks::step(const coupledSystem& system, const scalar deltaT)
             out,
             P.slipEnergy / deltaT}
     );
-    Pstream::listCombineGather(sums, plusEqOp<scalar>());
-    Pstream::listCombineScatter(sums);
+    reduce(sums, sumOp<scalarField>());
     for (scalar& sum : sums) sum *= deltaT;
 
     label i = 0;

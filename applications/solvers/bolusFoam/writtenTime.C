@@ -5,6 +5,7 @@
 
 #include "OFstream.H"
 #include "OSspecific.H"
+#include "Pstream.H"
 #include "PstreamReduceOps.H"
 
 namespace Foam

@@ -270,7 +270,6 @@ void Foam::coupledSystem::assembleCell(
     const label start = space_.cellStart()[c];
     const label n = space_.cellStart()[c + 1] - start;
     const label nd = space_.nd();
-    const label* dof = &space_.cellDofs()[start];
     const tensor* G = &space_.G()[start];
     const scalar* h = &space_.h()[start];
     const scalar V = space_.V()[c];

@@ -83,7 +83,7 @@ void Foam::coupledSystem::setPetsc(const dictionary& dict)
     nodeRow_ = space_.nodeRow();
     for (label& row : nodeRow_)
     {
-        row += cells.offset(velocities.whichProcID(row));
+        row += cells.toGlobal(velocities.whichProcID(row), 0);
     }
 
     DynamicList<PetscInt> rows;

@@ -33,7 +33,7 @@ void Foam::historyTransport::largest(
 ) const
 {
     // Classes of a twentieth of a decade, from 0.001 to 1000
-    scalarList classes(120, Zero);
+    scalarField classes(120, Zero);
     const scalarField& V = mesh_.V();
     most = 0;
     forAll(Co, c)
@@ -45,8 +45,7 @@ void Foam::historyTransport::largest(
         classes[min(i, classes.size() - 1)] += state_.mass[c] * V[c];
     }
     reduce(most, maxOp<scalar>());
-    Pstream::listCombineGather(classes, plusEqOp<scalar>());
-    Pstream::listCombineScatter(classes);
+    reduce(classes, sumOp<scalarField>());
 
     const scalar total = sum(classes);
     scalar above = 0;
@@ -64,14 +63,13 @@ Foam::labelPair Foam::historyTransport::divide(
     if (needed == 1 || !localSubSteps_) return labelPair(needed, 1);
 
     // Cells that need more than i sub-steps, at least
-    labelList above(needed + 1, Zero);
+    labelField above(needed + 1, Zero);
     for (const scalar x : Co)
     {
         const scalar steps = min(x / maxCourant_, scalar(needed));
         ++above[label(std::ceil(steps))];
     }
-    Pstream::listCombineGather(above, plusEqOp<label>());
-    Pstream::listCombineScatter(above);
+    reduce(above, sumOp<labelField>());
     for (label i = needed - 1; i >= 0; --i) above[i] += above[i + 1];
     const scalar nCells = above[0];
 

@@ -62,7 +62,7 @@ Foam::axialFrame::axialFrame(const polyMesh& mesh, const dictionary& dict) :
 Foam::wordList Foam::axialFrame::entries(const wordList& own)
 {
     wordList known(own);
-    known.append({"axis", "origin"});
+    known.append(wordList({"axis", "origin"}));
     return known;
 }
 

@@ -3,6 +3,7 @@
 
 #include "bolusStatistics.H"
 #include "addToRunTimeSelectionTable.H"
+#include "Pstream.H"
 #include "PstreamReduceOps.H"
 #include "Tuple2.H"
 #include "volFields.H"

@@ -79,9 +79,8 @@ Foam::scalarList Foam::functionObjects::contactForce::values()
 
     reduce(net, sumOp<vector>());
 
-    scalarList sums({total, normal, tangential, tensile});
-    Pstream::listCombineGather(sums, plusEqOp<scalar>());
-    Pstream::listCombineScatter(sums);
+    scalarField sums({total, normal, tangential, tensile});
+    reduce(sums, sumOp<scalarField>());
 
     const scalarList mesh(
         {net & frame_.axis(), sums[0], sums[1], sums[2], mag(net), sums[3]}

@@ -74,8 +74,13 @@ Foam::scalarList Foam::functionObjects::fragments::values()
     {
         if (in[c]) masses(regions[c], 0) += mass[c] * mesh_.V()[c];
     }
-    Pstream::mapCombineGather(masses, plusEqOp<scalar>());
-    Pstream::mapCombineScatter(masses);
+    auto add = [](const Map<scalar>& a, const Map<scalar>& b)
+    {
+        Map<scalar> sums(a);
+        forAllConstIters(b, iter) sums(iter.key(), 0) += iter.val();
+        return sums;
+    };
+    reduce(masses, add);
 
     // Interfaces are in cells on either side of isoValue
     labelList piece(mesh_.nCells(), -1);
@@ -110,8 +115,7 @@ Foam::scalarList Foam::functionObjects::fragments::values()
         if (piece[c] < 0) continue;
         areas(piece[c], 0) += surface.free()[c] + surface.contact()[c];
     }
-    Pstream::mapCombineGather(areas, plusEqOp<scalar>());
-    Pstream::mapCombineScatter(areas);
+    reduce(areas, add);
 
     // The heaviest first; equal ones in the order of their numbers
     List<Tuple2<scalar, label>> order;

@@ -3,6 +3,7 @@
 
 #include "wallEnergy.H"
 #include "addToRunTimeSelectionTable.H"
+#include "Pstream.H"
 #include "PstreamReduceOps.H"
 #include "fvMesh.H"
 

@@ -2,39 +2,37 @@
 // Copyright (C) 2026 the bolusFoam developers
 
 #include "weightedSample.H"
-#include "ListListOps.H"
 #include "ListOps.H"
 #include "Pstream.H"
+#include "PstreamReduceOps.H"
+#include "Tuple2.H"
 
 Foam::weightedSample::weightedSample(
     const scalarUList& values,
     const scalarUList& weights
 )
 {
-    List<scalarList> all(Pstream::nProcs());
-    List<scalarList> allWeights(Pstream::nProcs());
-    all[Pstream::myProcNo()] = values;
-    allWeights[Pstream::myProcNo()] = weights;
-    Pstream::gatherList(all);
-    Pstream::gatherList(allWeights);
-    Pstream::scatterList(all);
-    Pstream::scatterList(allWeights);
+    using sample = Tuple2<scalar, scalar>;
+    List<sample> all(values.size());
+    forAll(all, i) all[i] = sample(values[i], weights[i]);
+    reduce(
+        all,
+        [](const List<sample>& a, const List<sample>& b)
+        {
+            List<sample> both(a);
+            both.append(b);
+            return both;
+        }
+    );
+    sort(all);
 
-    const scalarList unsorted(
-        ListListOps::combine<scalarList>(all, accessOp<scalarList>())
-    );
-    const scalarList weight(
-        ListListOps::combine<scalarList>(allWeights, accessOp<scalarList>())
-    );
-    labelList order;
-    sortedOrder(unsorted, order);
-    values_.setSize(order.size());
-    sums_.setSize(order.size());
+    values_.setSize(all.size());
+    sums_.setSize(all.size());
     scalar sum = 0;
-    forAll(order, i)
+    forAll(all, i)
     {
-        values_[i] = unsorted[order[i]];
-        sums_[i] = (sum += weight[order[i]]);
+        values_[i] = all[i].first();
+        sums_[i] = (sum += all[i].second());
     }
 }
 

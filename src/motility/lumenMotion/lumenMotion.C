@@ -3,6 +3,7 @@
 
 #include "lumenMotion.H"
 #include "IOdictionary.H"
+#include "Pstream.H"
 #include "PstreamReduceOps.H"
 #include "Time.H"
 #include "dictionaryCheck.H"

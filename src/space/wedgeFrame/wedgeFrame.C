@@ -4,6 +4,7 @@
 #include "wedgeFrame.H"
 #include "mathematicalConstants.H"
 #include "polyMesh.H"
+#include "Pstream.H"
 #include "PstreamReduceOps.H"
 #include "SubField.H"
 #include "wedgePolyPatch.H"
