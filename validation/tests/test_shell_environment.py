@@ -319,3 +319,48 @@ def test_what_others_would_have_to_build_is_told_with_its_owner(tmp_path):
         assert "./Allrun build" in said
         assert "Permission denied" not in said
     shutil.rmtree(folder)
+
+
+# --- which OpenFOAM ----------------------------------------
+
+
+@pytest.mark.parametrize(
+    "version,api,refused",
+    [
+        ("com", "api=2412\npatch=0\n", None),
+        ("v2312", None, None),
+        ("my-own", "api=1912\n", None),
+        ("com", "api=1906\n", "too old"),
+        ("11", None, "not an ESI version"),
+        ("dev", None, "not an ESI version"),
+    ],
+)
+def test_an_openfoam_is_known_by_its_interface_not_its_name(
+    tmp_path, version, api, refused
+):
+    (tmp_path / "wmake").mkdir()
+    wmake = tmp_path / "wmake" / "wmake"
+    wmake.write_text("#!/bin/sh\n")
+    wmake.chmod(0o755)
+    if api:
+        (tmp_path / "META-INFO").mkdir()
+        (tmp_path / "META-INFO" / "api-info").write_text(api)
+    said = subprocess.run(
+        ["bash", "-c", ". scripts/environment && echo $BOLUSFOAM_OPENFOAM"],
+        cwd=ROOT,
+        env=os.environ
+        | {
+            "WM_PROJECT_DIR": str(tmp_path),
+            "WM_PROJECT_VERSION": version,
+            # Of one that was sourced before
+            "FOAM_API": "1912",
+            "PATH": f"{tmp_path / 'wmake'}:{os.environ['PATH']}",
+        },
+        capture_output=True,
+        text=True,
+    )
+    if refused:
+        assert refused in said.stderr
+        assert said.returncode != 0
+    else:
+        assert said.stdout.split() == ["sourced"], said.stderr

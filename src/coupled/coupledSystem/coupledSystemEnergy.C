@@ -23,7 +23,7 @@
 
 Foam::boolList Foam::coupledSystem::heldNodes() const
 {
-    boolList wall(mesh_.nPoints(), false);
+    labelList wall(mesh_.nPoints(), Zero);
     forAll(mesh_.boundary(), patchi)
     {
         if (!isA<contactWallFvPatchVectorField>(
@@ -32,10 +32,10 @@ Foam::boolList Foam::coupledSystem::heldNodes() const
             continue;
         for (const label p : mesh_.boundaryMesh()[patchi].meshPoints())
         {
-            wall[p] = true;
+            wall[p] = 1;
         }
     }
-    syncTools::syncPointList(mesh_, wall, orEqOp<bool>(), false);
+    syncTools::syncPointList(mesh_, wall, maxEqOp<label>(), label(0));
 
     boolList held(space_.nNodes(), true);
     forAll(wall, p)

@@ -108,7 +108,8 @@ void Foam::historyTransport::setZones(
     scalarField quick(nCells, Zero);
     forAll(quick, c) quick[c] = Co[c] > maxCourant_ * coarse ? 1 : 0;
     const scalarField quickNei(neighbour(quick));
-    boolList touched(nCells, false);
+    boolList touched;
+    touched.setSize(nCells, false);
     DynamicList<label> fastFaces, slowFaces, given, ledFaces;
     for (const label f : faces_)
     {

@@ -47,7 +47,8 @@ Foam::scalarList Foam::functionObjects::fragments::values()
     const volScalarField& alpha = field("alpha");
     const scalarField& mass = field("mass");
 
-    boolList in(mesh_.nCells());
+    boolList in;
+    in.setSize(mesh_.nCells());
     forAll(in, c) in[c] = alpha[c] > isoValue_;
     if (intact_)
     {
