@@ -10,7 +10,8 @@ of its own, with the surface alpha = 0.5 and the wall. Without --time the last
 written time; --png saves a picture, --state a .pvsm for ParaView's own window
 (File, Load State). Default: CASE/paraview.png and CASE/paraview.pvsm.
 
-Works on wedge meshes; plane and 3D meshes are shown as they are.
+Works on wedge meshes about x through the origin, and says so where another one
+is given; plane and 3D meshes are shown as they are.
 """
 
 import argparse
@@ -59,6 +60,14 @@ def section(source):
     return cut
 
 
+def about_x(bounds):
+    """Is a wedge with these bounds (x, x, y, y, z, z) about x, its radius y?"""
+    low, high = bounds[2:4]
+    slack = 1e-6 * (high - low)
+    thin = bounds[5] - bounds[4] < 0.3 * (high - low)
+    return thin and low > -slack and abs(bounds[4] + bounds[5]) < slack
+
+
 def revolved(source):
     """A line in the plane z = 0 turned half about the x axis."""
     # The filter turns about z
@@ -91,6 +100,14 @@ def main():
     if "alpha" not in names:
         sys.exit(f"viewCase.py: no field alpha at time {time:g}")
     wedge = any("wedge" in region for region in inside.MeshRegions.Available)
+
+    if wedge:
+        bounds = inside.GetDataInformation().GetBounds()
+        about_x(bounds) or sys.exit(
+            f"viewCase.py: {options.case}: the wedge is not about x through "
+            "the origin, in the middle of z; turn or move a copy of the case "
+            "there (transformPoints) to see it"
+        )
 
     flat = section(inside)
     bolus = pv.Clip(Input=flat)

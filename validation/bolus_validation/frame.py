@@ -14,6 +14,7 @@ mesh across x: that of y).
 """
 
 import re
+import sys
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -23,6 +24,7 @@ from bolus_validation.foam_files import (
     FoamFileError,
     entries,
     expanded,
+    read_list,
     read_text,
     stored,
 )
@@ -173,3 +175,15 @@ def plane_normal(areas: np.ndarray) -> np.ndarray:
     """Unit normal of a plane mesh from the areas (n, 3) of its two sides."""
     normal = np.linalg.eigh(areas.T @ areas)[1][:, -1]
     return _upward(normal)
+
+
+def longest_side(case: Path) -> int:
+    """Along which coordinate, 0 to 2, the mesh of a case is longest."""
+    path = case / "constant" / "polyMesh" / "points"
+    if stored(path) is None:
+        raise FoamFileError(f"{case}: there is no constant/polyMesh/points")
+    return int(np.argmax(np.ptp(read_list(path, float, 3), axis=0)))
+
+
+if __name__ == "__main__":
+    print(longest_side(Path(sys.argv[1])))

@@ -38,6 +38,7 @@ FLUX = "src/coupled/historyTransport/historyTransportFlux.C"
 TRANSPORT = "src/coupled/historyTransport/historyTransport.C"
 POINT = "src/rheology/elastoViscoPlastic/elastoViscoPlasticI.H"
 SOLVER = ("applications/solvers/bolusFoam",)
+SPACE_LIBRARY = ("src/space",)
 
 
 @dataclass(frozen=True)
@@ -54,6 +55,134 @@ class Mutation:
 
 
 MUTATIONS = (
+    Mutation(
+        "axis of a wedge through the origin",
+        "src/space/wedgeFrame/wedgeFrame.C",
+        "origin_ = sum / found;",
+        "origin_ = Zero;",
+        SPACE_LIBRARY,
+        "test_axis.py -k sideways",
+    ),
+    Mutation(
+        "axis of a wedge free to move",
+        SPACE,
+        "if (onAxis_[n]) constrain(n, e2_);",
+        "",
+        COUPLED,
+        "test_axis.py -k hair",
+    ),
+    Mutation(
+        "stress limited by its components in space, not in the slice",
+        "src/coupled/nodalSpace/nodalSpace.H",
+        "return tensor(e1_, e2_, e3_);",
+        "return tensor::I;",
+        (*COUPLED, *SOLVER),
+        "test_axis.py -k plane",
+    ),
+    Mutation(
+        "function objects measure from the origin of coordinates",
+        "src/functionObjects/axialFrame/axialFrame.C",
+        'origin_ = motility.lookupOrDefault<point>("origin", point(Zero));',
+        "",
+        ("src/functionObjects",),
+        "test_axis.py -k along",
+    ),
+    Mutation(
+        "motility beside the axis of the wedge",
+        "src/motility/lumenMotionSolver/lumenMotionSolver.C",
+        "if (!wedge.valid()) return;",
+        "return;",
+        ("src/motility",),
+        "test_axis.py -k beside",
+    ),
+    Mutation(
+        "energy of the wall beyond its law",
+        "src/functionObjects/vanDerWaals/vanDerWaals.C",
+        "min(invariant(l1, l2, l3), largest_)",
+        "invariant(l1, l2, l3)",
+        ("src/functionObjects",),
+        "test_bolus_functions.py -k beyond",
+    ),
+    Mutation(
+        "a folder for two runs",
+        "applications/solvers/bolusFoam/runLock.C",
+        "::flock(file_, LOCK_EX | LOCK_NB) == 0",
+        "true",
+        SOLVER,
+        "test_runs.py -k second_run",
+    ),
+    Mutation(
+        "PETSc's handlers of signals for OpenFOAM's",
+        "src/coupled/petscHandles/petscHandles.H",
+        '"-no_signal_handler", "1"',
+        '"-no_signal_handler", "0"',
+        SOLVER,
+        "test_runs.py -k SIGFPE",
+    ),
+    Mutation(
+        "no look at what is no number",
+        "applications/solvers/bolusFoam/bolusFields.C",
+        "forState(requireNumbers());",
+        "",
+        SOLVER,
+        "test_runs.py -k no_number",
+    ),
+    Mutation(
+        "no look at cells after the mesh has moved",
+        "applications/solvers/bolusFoam/bolusFoam.C",
+        "meshCheck::requireSoundCells(mesh);",
+        "",
+        SOLVER,
+        "test_runs.py -k inside_out",
+    ),
+    Mutation(
+        "a step done again moves the mesh on from where it is",
+        "applications/solvers/bolusFoam/bolusFoam.C",
+        "if (again) mesh.movePoints",
+        "if (false) mesh.movePoints",
+        SOLVER,
+        "test_runs.py -k done_again",
+    ),
+    Mutation(
+        "a time's name of few digits",
+        "applications/solvers/bolusFoam/writtenTime.C",
+        "    findName();\n    const fileName folder",
+        "    const fileName folder",
+        SOLVER,
+        "test_runs.py -k found_again",
+    ),
+    Mutation(
+        "fields written with few digits",
+        "applications/solvers/bolusFoam/writtenTime.C",
+        "const label least = 10;",
+        "const label least = 1;",
+        SOLVER,
+        "test_runs.py -k lose_digits",
+    ),
+    Mutation(
+        "controlDict is not read again",
+        "src/coupled/stepControl/stepControl.C",
+        "    readModified();\n",
+        "",
+        COUPLED,
+        "test_runs.py -k controlDict",
+    ),
+    Mutation(
+        "residuals of any case in units of the oatcake's",
+        "src/coupled/caseScales/caseScales.H",
+        "return stress_ / 9600;",
+        "return 1;",
+        (*COUPLED, *SOLVER),
+        "test_scales.py -k any_strength",
+    ),
+    Mutation(
+        "void of any case at 0.1/s",
+        "src/coupled/caseScales/caseScales.H",
+        "return 0.1 / strainRate_;",
+        "return 1;",
+        (*COUPLED, *SOLVER),
+        "test_scales.py -k any_strength",
+    ),
     Mutation(
         "bolus on the wrong side of the interface in transport",
         "src/coupled/planarInterface/planarInterface.H",

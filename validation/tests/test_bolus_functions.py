@@ -144,37 +144,55 @@ def van_der_waals(*stretches) -> float:
     )
 
 
-def test_energy_of_a_stretched_wall_is_that_of_eq_6(tmp_path):
-    length, radius, thickness = 0.04, 0.02, 1e-3
-    hoop, axial = 0.8, 1.1
-    mesh = wedge_mesh(tmp_path, length, radius, 8, 4)
-    laplacian_case(tmp_path, mesh, RHO)
+# The wall below: area of its facets, which are narrower than its arc [m2], and
+# thickness [m]
+WALL = 2 * np.pi * 0.02 * np.sin(HALF_ANGLE) / HALF_ANGLE * 0.04
+THICKNESS = 1e-3
+
+
+def stretched_wall(case, hoop: float, axial: float) -> dict:
+    """Last row of wallEnergy of a tube, 40 mm long and 20 mm in radius."""
+    mesh = wedge_mesh(case, 0.04, 0.02, 8, 4)
+    laplacian_case(case, mesh, RHO)
     for name in ("alpha", "mass"):
-        write_field(tmp_path, mesh, 0, name, 1.0)
-    points = tmp_path / "constant" / "polyMesh" / "points"
-    shutil.copy(points, tmp_path / "relaxed")
-    run(tmp_path, "transformPoints", "-scale", f"({axial} {hoop} {hoop})")
-    moved = tmp_path / "0" / "polyMesh" / "points"
+        write_field(case, mesh, 0, name, 1.0)
+    points = case / "constant" / "polyMesh" / "points"
+    shutil.copy(points, case / "relaxed")
+    run(case, "transformPoints", "-scale", f"({axial} {hoop} {hoop})")
+    moved = case / "0" / "polyMesh" / "points"
     moved.parent.mkdir()
     shutil.move(points, moved)
-    shutil.move(tmp_path / "relaxed", points)
-
-    row = post_process(
-        tmp_path,
+    shutil.move(case / "relaxed", points)
+    return post_process(
+        case,
         "wallEnergy",
         "alpha mass",
-        f"patches (wall); thickness {thickness};",
+        f"patches (wall); thickness {THICKNESS};",
     )
+
+
+def test_energy_of_a_stretched_wall_is_that_of_eq_6(tmp_path):
+    hoop, axial = 0.8, 1.1
+    row = stretched_wall(tmp_path, hoop, axial)
     assert row["hoopMax"] == pytest.approx(hoop, rel=1e-8)
     assert row["hoopMin"] == pytest.approx(hoop, rel=1e-8)
-    # The thickness is free; the facet is narrower than its arc
+    # The thickness is free
     law = minimize_scalar(
         lambda t: van_der_waals(hoop, axial, t), bounds=(0.9, 1.4)
     ).fun
-    facets = 2 * np.pi * radius * np.sin(HALF_ANGLE) / HALF_ANGLE
-    assert row["energy"] == pytest.approx(
-        law * thickness * facets * length, rel=1e-6
-    )
+    assert row["energy"] == pytest.approx(law * THICKNESS * WALL, rel=1e-6)
+    assert row["beyondLaw"] == 0
+
+
+def test_energy_of_a_wall_beyond_its_law_is_the_largest_of_the_law(tmp_path):
+    # A ring closed to 0.11 of its radius, as the wave does: by the formula -1 J
+    row = stretched_wall(tmp_path, 0.11, 1)
+    assert van_der_waals(0.11, 1, 1 / 0.11) < 0
+    # At constant volume; the formula's highest point, found on a fine scale
+    tubes = np.linspace(0.15, 1, 20001)
+    most = max(van_der_waals(r, 1, 1 / r) for r in tubes)
+    assert row["energy"] == pytest.approx(most * THICKNESS * WALL, rel=1e-6)
+    assert row["beyondLaw"] == pytest.approx(1)
 
 
 @pytest.mark.parametrize(
