@@ -385,9 +385,9 @@ def test_other_stomachs_hold_0_88_l_and_the_bolus_fits(stomach):
     assert np.all(radius(x) > sphere)
 
 
-def test_patch_condition_gives_the_wall_of_the_motion_solver(tmp_path):
-    """lumenDisplacement under a Laplacian motion solver, and its restart."""
-    case = make_mesh(make_case(tmp_path / "case", deltaT=1, endTime=3))
+def patch_condition(folder):
+    """A case with lumenDisplacement under a Laplacian motion solver."""
+    case = make_mesh(make_case(folder, deltaT=1, endTime=3))
     write_dict(
         case,
         "constant/dynamicMeshDict",
@@ -406,6 +406,19 @@ def test_patch_condition_gives_the_wall_of_the_motion_solver(tmp_path):
         "axis { type empty; } }",
         "pointVectorField",
     )
+    return case
+
+
+def test_patch_condition_beside_the_axis_of_the_wedge_is_refused(tmp_path):
+    case = patch_condition(tmp_path / "case")
+    run(case, "transformPoints", "-translate", "(0 0 1e-4)")
+    said = " ".join(run(case, "moveDynamicMesh", ok=False).split())
+    assert "away from the axis of the wedge mesh" in said
+
+
+def test_patch_condition_gives_the_wall_of_the_motion_solver(tmp_path):
+    """lumenDisplacement under a Laplacian motion solver, and its restart."""
+    case = patch_condition(tmp_path / "case")
     run(case, "moveDynamicMesh")
 
     # A restart must count from the same points, not from the moved ones

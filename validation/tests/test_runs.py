@@ -15,11 +15,13 @@ import time
 
 import numpy as np
 import pytest
+from bolus_validation.fields import read_mesh
 from bolus_validation.results import read_table
 from bolus_validation.specimens import prepare_compression, replace
 from bolus_validation.synthetic import (
     run,
     run_parallel,
+    write_field,
     write_laplacian_motion,
 )
 
@@ -183,6 +185,16 @@ def test_a_start_with_more_or_less_than_a_full_cell_is_refused(case, alpha):
     assert "valid are 0 (void) to 1 (bolus)" in said
 
 
+@pytest.mark.parametrize(
+    "name,value", [("D", 1.5), ("epsilonPEq", -0.1), ("tensileStrain", -1)]
+)
+def test_a_start_with_a_memory_that_cannot_be_is_refused(case, name, value):
+    mesh = read_mesh(case / "constant" / "polyMesh")
+    write_field(case, mesh, 0, name, value)
+    said = message(run(case, "bolusFoam", ok=False))
+    assert f"field {name}: values from {value:g} to {value:g}" in said
+
+
 # --- what makes a restart another run ----------------------------------------
 
 
@@ -192,10 +204,25 @@ def test_fields_that_would_lose_digits_are_refused_at_the_start(case, digits):
     said = message(run(case, "bolusFoam", ok=False))
     assert f"entry writePrecision: {digits}" in said
     assert "valid are 10 and more, or writeFormat binary" in said
-    # Binary fields lose none
+    # Binary fields lose none, and what is written beside them neither
     control(case, "writeFormat", "binary")
-    control(case, "endTime", 0.1)
+    control(case, "endTime", 1)
+    whole = shutil.copytree(case, case.with_name("whole"))
+    run(whole, "bolusFoam")
+    control(case, "endTime", 0.5)
     run(case, "bolusFoam")
+    control(case, "endTime", 1)
+    run(case, "bolusFoam")
+    for name, columns in (
+        ("contactForce", ("axial", "total")),
+        ("energyBalance", ("walls", "plastic", "residual")),
+    ):
+        one, other = read_table(case, name), read_table(whole, name)
+        for column in columns:
+            # To the digits of the tables
+            assert one[column][-1] == pytest.approx(
+                other[column][-1], rel=1e-8, abs=1e-13
+            ), (name, column)
 
 
 @pytest.mark.parametrize("time_digits", [3, 8])

@@ -96,6 +96,26 @@ static label notNumbers(const UList<Type>& values)
 }
 
 
+//- Stop if a field of a start has values below 0 or above the highest, but for
+//  round-off
+static void requireWithin(
+    const volScalarField& f,
+    const scalar highest,
+    const char* valid
+)
+{
+    const scalar roundOff = 1e-6;
+    const scalar low = gMin(f.primitiveField());
+    const scalar high = gMax(f.primitiveField());
+    if (low < -roundOff || high > highest + roundOff)
+    {
+        FatalErrorInFunction << "field " << f.name() << ": values from " << low
+                             << " to " << high << "; valid are " << valid
+                             << exit(FatalError);
+    }
+}
+
+
 //- Stop if a field was read that holds what is no number
 struct requireNumbers
 {
@@ -249,14 +269,10 @@ Foam::bolusFields::bolusFields(
     // overfull, people may not
     if (min(mass).value() < -0.5)
     {
-        const scalar roundOff = 1e-6;
-        if (min(alpha).value() < -roundOff || max(alpha).value() > 1 + roundOff)
-        {
-            FatalErrorInFunction
-                << "field alpha: values from " << min(alpha).value() << " to "
-                << max(alpha).value() << "; valid are 0 (void) to 1 (bolus)"
-                << exit(FatalError);
-        }
+        requireWithin(alpha, 1, "0 (void) to 1 (bolus)");
+        requireWithin(D, 1, "0 (sound) to 1 (damaged)");
+        requireWithin(epsilonPEq, GREAT, "numbers >= 0");
+        requireWithin(tensileStrain, GREAT, "numbers >= 0");
         mass = alpha
             * exp(p / dimensionedScalar("K", dimPressure, law.elastic().K()));
     }

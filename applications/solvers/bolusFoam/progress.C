@@ -49,8 +49,8 @@ Foam::progress::progress(
             << exit(FatalError);
     }
     massError_ = (fields_.totalMass() + emptied_ - initial_) / initial_;
-    books_.set("initial", initial_);
-    books_.set("emptied", emptied_);
+    books_.add("initial", initial_, true);
+    books_.add("emptied", emptied_, true);
 
     if (Pstream::master())
     {
@@ -83,9 +83,9 @@ void Foam::progress::step(
     }
     reduce(out, sumOp<scalar>());
     emptied_ += out * time_.deltaTValue();
-    books_.set("emptied", emptied_);
+    books_.add("emptied", emptied_, true);
     spilled_ += moved.spilled;
-    books_.set("spilled", spilled_);
+    books_.add("spilled", spilled_, true);
     if (moved.alphaMax > 1.01)
     {
         books_.set("overfull", ++overfull_);
@@ -125,9 +125,9 @@ void Foam::progress::step(
     largestRate_ = max(largestRate_, bolusRate);
     strain_ += bolusRate * time_.deltaTValue();
     strainTime_ += time_.deltaTValue();
-    books_.set("largestRate", largestRate_);
-    books_.set("strain", strain_);
-    books_.set("strainTime", strainTime_);
+    books_.add("largestRate", largestRate_, true);
+    books_.add("strain", strain_, true);
+    books_.add("strainTime", strainTime_, true);
     if (control_.steps() == 20) tellRate();
 
     // Below 0 only if the transport has gone wrong

@@ -105,7 +105,14 @@ void Foam::writtenTime::write()
     const fileName folder(time_.timePath());
     // Until it is written again, what is there is not to be trusted
     rm(mark(folder));
+    // Dictionaries are ascii whatever the fields are
+    const unsigned digits = IOstream::defaultPrecision();
+    if (time_.writeFormat() == IOstream::BINARY)
+    {
+        IOstream::defaultPrecision(max(digits, 17u));
+    }
     bool written = time_.writeNow();
+    IOstream::defaultPrecision(digits);
     reduce(written, andOp<bool>());
     if (!written) fail(folder);
     pending_ = folder;

@@ -220,7 +220,8 @@ void Foam::stepControl::done(const label iterations, const scalar courant)
         deltaT_ = min(deltaT_, max(dt * maxCourant_ / courant, minDeltaT_));
     }
 
-    memory_.set("deltaT", deltaT_);
+    // As a token: set() would round to the digits that are written
+    memory_.add("deltaT", deltaT_, true);
     memory_.set("patience", patience_);
     memory_.set("steps", steps_);
     memory_.set("rejected", rejected_);

@@ -96,6 +96,8 @@ void Foam::lumenDisplacementPointPatchVectorField::updateCoeffs()
         motion_.reset(lumenMotion::New(runTime).ptr());
 
         motion_->checkCovers(p0_);
+        motion_->checkAxis(internalField().mesh()(), p0_, 1e-5);
+        motion_->checkWall(p0_, 1e-5);
     }
 
     vectorField& displacement = *this;

@@ -7,6 +7,8 @@
 #include "PstreamReduceOps.H"
 #include "Time.H"
 #include "dictionaryCheck.H"
+#include "polyMesh.H"
+#include "wedgeFrame.H"
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
@@ -86,6 +88,56 @@ Foam::scalar Foam::lumenMotion::outermost(const pointField& points0) const
     }
 
     return returnReduce(ratio, maxOp<scalar>());
+}
+
+
+void Foam::lumenMotion::checkAxis(
+    const polyMesh& mesh,
+    const pointField& points0,
+    const scalar tolerance
+) const
+{
+    const wedgeFrame wedge(mesh);
+    if (!wedge.valid()) return;
+
+    scalar largest = 0;
+    for (const point& p : points0)
+    {
+        largest = max(largest, mag(wedge.fromAxis(p)));
+    }
+    reduce(largest, maxOp<scalar>());
+
+    const scalar apart = wedgeFrame::apart(mesh, wedge, origin_, axis_);
+    if (!(apart <= tolerance * largest))
+    {
+        FatalErrorInFunction
+            << "Entries 'origin' " << origin_ << " m and 'axis' " << axis_
+            << " of constant/motilityProperties are up to " << apart
+            << " m away from the axis of the wedge mesh, through "
+            << wedge.origin() << " m along " << wedge.axis()
+            << "; valid is that axis, in one of its two directions"
+            << exit(FatalError);
+    }
+}
+
+
+void Foam::lumenMotion::checkWall(
+    const pointField& points0,
+    const scalar tolerance
+) const
+{
+    const scalar ratio = outermost(points0);
+
+    if (!(mag(ratio - 1) <= tolerance))
+    {
+        FatalErrorInFunction
+            << "The outermost points of constant/polyMesh are at " << ratio
+            << " times the radius of the wall at the reference time; within"
+            << " the wallTolerance, " << tolerance
+            << ", it must be 1. Run gastricMesh after blockMesh, and both"
+            << " again after a change of constant/motilityProperties"
+            << exit(FatalError);
+    }
 }
 
 

@@ -8,7 +8,6 @@
 #include "emptyPolyPatch.H"
 #include "polyMesh.H"
 #include "primitiveMeshTools.H"
-#include "wedgeFrame.H"
 
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
 
@@ -41,50 +40,6 @@ void Foam::lumenMotionSolver::checkDimensions() const
             << ", which moves points radially, but the mesh is planar (it has"
             << " patches of type empty); valid are a wedge or a"
             << " three-dimensional mesh" << exit(FatalIOError);
-    }
-}
-
-
-void Foam::lumenMotionSolver::checkAxis(const scalar tolerance) const
-{
-    const wedgeFrame wedge(mesh());
-    if (!wedge.valid()) return;
-
-    scalar largest = 0;
-    for (const point& p : points0())
-    {
-        largest = max(largest, mag(wedge.fromAxis(p)));
-    }
-    reduce(largest, maxOp<scalar>());
-
-    const scalar apart =
-        wedgeFrame::apart(mesh(), wedge, motion_->origin(), motion_->axis());
-    if (!(apart <= tolerance * largest))
-    {
-        FatalIOErrorInFunction(coeffDict())
-            << "Entries 'origin' " << motion_->origin() << " m and 'axis' "
-            << motion_->axis() << " of constant/motilityProperties are up to "
-            << apart << " m away from the axis of the wedge mesh, through "
-            << wedge.origin() << " m along " << wedge.axis()
-            << "; valid is that axis, in one of its two directions"
-            << exit(FatalIOError);
-    }
-}
-
-
-void Foam::lumenMotionSolver::checkWall(const scalar tolerance) const
-{
-    const scalar ratio = motion_->outermost(points0());
-
-    if (!(mag(ratio - 1) <= tolerance))
-    {
-        FatalIOErrorInFunction(coeffDict())
-            << "The outermost points of constant/polyMesh are at " << ratio
-            << " times the radius of the wall at the reference time; within"
-            << " the wallTolerance, " << tolerance
-            << ", it must be 1. Run gastricMesh after blockMesh, and both"
-            << " again after a change of constant/motilityProperties"
-            << exit(FatalIOError);
     }
 }
 
@@ -210,8 +165,8 @@ Foam::lumenMotionSolver::lumenMotionSolver(
     const scalar tolerance = coeffs.found("wallTolerance")
         ? dictionaryCheck::positive(coeffs, "wallTolerance")
         : 1e-5;
-    checkAxis(tolerance);
-    checkWall(tolerance);
+    motion_->checkAxis(mesh, points0(), tolerance);
+    motion_->checkWall(points0(), tolerance);
 
     scalar xEnd = -GREAT;
     for (const point& p : points0())
