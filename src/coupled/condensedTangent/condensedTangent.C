@@ -21,11 +21,11 @@ public:
     explicit vecValues(Vec v) :
         v_(v)
     {
-        VecGetArrayRead(v_, &a_);
+        PETSC_CHECK(VecGetArrayRead(v_, &a_));
     }
     ~vecValues()
     {
-        VecRestoreArrayRead(v_, &a_);
+        PETSC_CHECK(VecRestoreArrayRead(v_, &a_));
     }
     PetscScalar operator[](const label i) const
     {
@@ -44,10 +44,10 @@ void Foam::condensedTangent::preallocate()
     const label nd = space_.nd();
 
     petscMat pattern;
-    MatCreate(PETSC_COMM_WORLD, pattern.set());
-    MatSetType(pattern, MATPREALLOCATOR);
-    MatSetSizes(pattern, n, n, PETSC_DETERMINE, PETSC_DETERMINE);
-    MatSetUp(pattern);
+    PETSC_CHECK(MatCreate(PETSC_COMM_WORLD, pattern.set()));
+    PETSC_CHECK(MatSetType(pattern, MATPREALLOCATOR));
+    PETSC_CHECK(MatSetSizes(pattern, n, n, PETSC_DETERMINE, PETSC_DETERMINE));
+    PETSC_CHECK(MatSetUp(pattern));
 
     DynamicList<PetscInt> rows;
     for (const label node : space_.ownedNodes())
@@ -56,7 +56,9 @@ void Foam::condensedTangent::preallocate()
         {
             const PetscInt row = space_.nodeRow()[node] + k;
             const scalar zero = 0;
-            MatSetValues(pattern, 1, &row, 1, &row, &zero, ADD_VALUES);
+            PETSC_CHECK(
+                MatSetValues(pattern, 1, &row, 1, &row, &zero, ADD_VALUES)
+            );
         }
     }
     forAll(room_, c)
@@ -71,7 +73,7 @@ void Foam::condensedTangent::preallocate()
             rows.append(space_.nodeRow()[dof / nd] + dof % nd);
         }
         const scalarField zeros(rows.size() * rows.size(), 0.0);
-        MatSetValues(
+        PETSC_CHECK(MatSetValues(
             pattern,
             rows.size(),
             rows.cdata(),
@@ -79,26 +81,26 @@ void Foam::condensedTangent::preallocate()
             rows.cdata(),
             zeros.cdata(),
             ADD_VALUES
-        );
+        ));
     }
-    MatAssemblyBegin(pattern, MAT_FINAL_ASSEMBLY);
-    MatAssemblyEnd(pattern, MAT_FINAL_ASSEMBLY);
+    PETSC_CHECK(MatAssemblyBegin(pattern, MAT_FINAL_ASSEMBLY));
+    PETSC_CHECK(MatAssemblyEnd(pattern, MAT_FINAL_ASSEMBLY));
 
-    MatCreate(PETSC_COMM_WORLD, A_.set());
-    MatSetType(A_, MATAIJ);
-    MatSetSizes(A_, n, n, PETSC_DETERMINE, PETSC_DETERMINE);
-    MatPreallocatorPreallocate(pattern, PETSC_TRUE, A_);
+    PETSC_CHECK(MatCreate(PETSC_COMM_WORLD, A_.set()));
+    PETSC_CHECK(MatSetType(A_, MATAIJ));
+    PETSC_CHECK(MatSetSizes(A_, n, n, PETSC_DETERMINE, PETSC_DETERMINE));
+    PETSC_CHECK(MatPreallocatorPreallocate(pattern, PETSC_TRUE, A_));
     // Preallocation makes it 1; subdomains are to have whole nodes
-    MatSetBlockSize(A_, nd);
-    MatSetOption(A_, MAT_NEW_NONZERO_ALLOCATION_ERR, PETSC_TRUE);
+    PETSC_CHECK(MatSetBlockSize(A_, nd));
+    PETSC_CHECK(MatSetOption(A_, MAT_NEW_NONZERO_ALLOCATION_ERR, PETSC_TRUE));
 }
 
 
 void Foam::condensedTangent::createSolver()
 {
-    KSPCreate(PETSC_COMM_WORLD, solver_.set());
-    KSPSetOptionsPrefix(solver_, "bolus_velocity_");
-    KSPSetOperators(solver_, A_, A_);
+    PETSC_CHECK(KSPCreate(PETSC_COMM_WORLD, solver_.set()));
+    PETSC_CHECK(KSPSetOptionsPrefix(solver_, "bolus_velocity_"));
+    PETSC_CHECK(KSPSetOperators(solver_, A_, A_));
     petscCheck(KSPSetFromOptions(solver_), "petscOptions of fvSolution");
     if (slabs_.number > 0) setSlabs();
 }
@@ -155,18 +157,18 @@ void Foam::condensedTangent::setSlabs()
         if (rows.empty()) continue;
         std::sort(rows.begin(), rows.end());
         slabs.push_back(nullptr);
-        ISCreateBlock(
+        PETSC_CHECK(ISCreateBlock(
             PETSC_COMM_SELF,
             nd,
             rows.size(),
             rows.cdata(),
             PETSC_COPY_VALUES,
             &slabs.back()
-        );
+        ));
     }
     // Nothing to a solver that is not Schwarz's method
     PC pc;
-    KSPGetPC(solver_, &pc);
+    PETSC_CHECK(KSPGetPC(solver_, &pc));
     petscCheck(
         PCASMSetLocalSubdomains(pc, slabs.size(), slabs.data(), slabs.data()),
         "PCASMSetLocalSubdomains"
@@ -175,10 +177,10 @@ void Foam::condensedTangent::setSlabs()
 
     // PETSc takes a caller's subdomains as they are until it is told again
     PetscInt overlap = 1;
-    PetscOptionsGetInt(
+    PETSC_CHECK(PetscOptionsGetInt(
         nullptr, "bolus_velocity_", "-pc_asm_overlap", &overlap, nullptr
-    );
-    PCASMSetOverlap(pc, overlap);
+    ));
+    PETSC_CHECK(PCASMSetOverlap(pc, overlap));
 }
 
 
@@ -199,10 +201,12 @@ void Foam::condensedTangent::addB(const scalarField& perCell, Vec v) const
             rows.append(space_.nodeRow()[dof / nd] + dof % nd);
             values.append(B_[i] * perCell[c]);
         }
-        VecSetValues(v, rows.size(), rows.cdata(), values.cdata(), ADD_VALUES);
+        PETSC_CHECK(VecSetValues(
+            v, rows.size(), rows.cdata(), values.cdata(), ADD_VALUES
+        ));
     }
-    VecAssemblyBegin(v);
-    VecAssemblyEnd(v);
+    PETSC_CHECK(VecAssemblyBegin(v));
+    PETSC_CHECK(VecAssemblyEnd(v));
 }
 
 
@@ -227,8 +231,12 @@ PetscErrorCode Foam::condensedTangent::multiply(Vec x, Vec y) const
 {
     const label n = space_.nRowsOwned();
 
-    VecScatterBegin(scatter_, x, local_, INSERT_VALUES, SCATTER_FORWARD);
-    VecScatterEnd(scatter_, x, local_, INSERT_VALUES, SCATTER_FORWARD);
+    PETSC_CHECK(
+        VecScatterBegin(scatter_, x, local_, INSERT_VALUES, SCATTER_FORWARD)
+    );
+    PETSC_CHECK(
+        VecScatterEnd(scatter_, x, local_, INSERT_VALUES, SCATTER_FORWARD)
+    );
 
     scalarField Cu(D_.size());
     multC(Cu);
@@ -237,21 +245,21 @@ PetscErrorCode Foam::condensedTangent::multiply(Vec x, Vec y) const
     {
         const vecValues values(x);
         PetscScalar* u;
-        VecGetArray(solution_, &u);
+        PETSC_CHECK(VecGetArray(solution_, &u));
         for (label i = 0; i < n; ++i) u[i] = values[i];
-        VecRestoreArray(solution_, &u);
+        PETSC_CHECK(VecRestoreArray(solution_, &u));
         forAll(perCell, c) perCell[c] = values[n + c] + Cu[c] / D_[c];
     }
-    MatMult(A_, solution_, right_);
+    PETSC_CHECK(MatMult(A_, solution_, right_));
     addB(perCell, right_);
 
     const vecValues Au(right_);
     const vecValues values(x);
     PetscScalar* result;
-    VecGetArray(y, &result);
+    PETSC_CHECK(VecGetArray(y, &result));
     for (label i = 0; i < n; ++i) result[i] = Au[i];
     forAll(D_, c) result[n + c] = Cu[c] + D_[c] * values[n + c];
-    VecRestoreArray(y, &result);
+    PETSC_CHECK(VecRestoreArray(y, &result));
     return 0;
 }
 
@@ -265,14 +273,14 @@ PetscErrorCode Foam::condensedTangent::solve(Vec f, Vec x, bool& solved) const
         const vecValues values(f);
         forAll(g, c) g[c] = values[n + c] + excess_[c];
     }
-    VecSet(right_, 0);
+    PETSC_CHECK(VecSet(right_, 0));
     addB(-g / D_, right_);
     {
         const vecValues values(f);
         PetscScalar* r;
-        VecGetArray(right_, &r);
+        PETSC_CHECK(VecGetArray(right_, &r));
         for (label i = 0; i < n; ++i) r[i] += values[i];
-        VecRestoreArray(right_, &r);
+        PETSC_CHECK(VecRestoreArray(right_, &r));
     }
 
     // Apart, for the profile: the first things that KSPSolve would do
@@ -287,9 +295,9 @@ PetscErrorCode Foam::condensedTangent::solve(Vec f, Vec x, bool& solved) const
     {
         addProfiling(substitution, "linear solve");
         code = KSPSolve(solver_, right_, solution_);
-        KSPGetConvergedReason(solver_, &reason);
+        PETSC_CHECK(KSPGetConvergedReason(solver_, &reason));
         PetscInt iterations;
-        KSPGetIterationNumber(solver_, &iterations);
+        PETSC_CHECK(KSPGetIterationNumber(solver_, &iterations));
         iterations_ += iterations;
     }
     solved = code == 0 && reason > 0;
@@ -297,17 +305,21 @@ PetscErrorCode Foam::condensedTangent::solve(Vec f, Vec x, bool& solved) const
     PetscScalar* result;
     {
         const vecValues u(solution_);
-        VecGetArray(x, &result);
+        PETSC_CHECK(VecGetArray(x, &result));
         for (label i = 0; i < n; ++i) result[i] = u[i];
-        VecRestoreArray(x, &result);
+        PETSC_CHECK(VecRestoreArray(x, &result));
     }
-    VecScatterBegin(scatter_, x, local_, INSERT_VALUES, SCATTER_FORWARD);
-    VecScatterEnd(scatter_, x, local_, INSERT_VALUES, SCATTER_FORWARD);
+    PETSC_CHECK(
+        VecScatterBegin(scatter_, x, local_, INSERT_VALUES, SCATTER_FORWARD)
+    );
+    PETSC_CHECK(
+        VecScatterEnd(scatter_, x, local_, INSERT_VALUES, SCATTER_FORWARD)
+    );
     scalarField Cu(D_.size());
     multC(Cu);
-    VecGetArray(x, &result);
+    PETSC_CHECK(VecGetArray(x, &result));
     forAll(D_, c) result[n + c] = (g[c] - Cu[c]) / D_[c];
-    VecRestoreArray(x, &result);
+    PETSC_CHECK(VecRestoreArray(x, &result));
     return code;
 }
 
@@ -315,7 +327,7 @@ PetscErrorCode Foam::condensedTangent::solve(Vec f, Vec x, bool& solved) const
 PetscErrorCode Foam::condensedTangent::shellMult(Mat J, Vec x, Vec y)
 {
     void* self;
-    MatShellGetContext(J, &self);
+    PETSC_CHECK(MatShellGetContext(J, &self));
     return static_cast<const condensedTangent*>(self)->multiply(x, y);
 }
 
@@ -323,12 +335,12 @@ PetscErrorCode Foam::condensedTangent::shellMult(Mat J, Vec x, Vec y)
 PetscErrorCode Foam::condensedTangent::shellSolve(PC pc, Vec f, Vec x)
 {
     void* self;
-    PCShellGetContext(pc, &self);
+    PETSC_CHECK(PCShellGetContext(pc, &self));
     bool solved;
     const PetscErrorCode code =
         static_cast<const condensedTangent*>(self)->solve(f, x, solved);
     // Not left to the next solution: nothing else takes a failure back
-    PCSetFailedReason(pc, solved ? PC_NOERROR : PC_SUBPC_ERROR);
+    PETSC_CHECK(PCSetFailedReason(pc, solved ? PC_NOERROR : PC_SUBPC_ERROR));
     return code;
 }
 
@@ -353,7 +365,7 @@ Foam::condensedTangent::condensedTangent(
     iterations_(0)
 {
     preallocate();
-    MatCreateVecs(A_, solution_.set(), right_.set());
+    PETSC_CHECK(MatCreateVecs(A_, solution_.set(), right_.set()));
 
     const label n = space_.nRowsOwned() + space_.mesh().nCells();
     petscCheck(
@@ -368,9 +380,9 @@ Foam::condensedTangent::condensedTangent(
         ),
         "MatCreateShell"
     );
-    MatShellSetOperation(
+    PETSC_CHECK(MatShellSetOperation(
         shell_, MATOP_MULT, reinterpret_cast<void (*)()>(shellMult)
-    );
+    ));
 
     createSolver();
 }
@@ -382,20 +394,20 @@ void Foam::condensedTangent::attach(SNES snes)
 {
     KSP ksp;
     PC pc;
-    SNESGetKSP(snes, &ksp);
-    KSPSetType(ksp, KSPPREONLY);
-    KSPGetPC(ksp, &pc);
-    PCSetType(pc, PCSHELL);
-    PCShellSetContext(pc, this);
-    PCShellSetApply(pc, shellSolve);
+    PETSC_CHECK(SNESGetKSP(snes, &ksp));
+    PETSC_CHECK(KSPSetType(ksp, KSPPREONLY));
+    PETSC_CHECK(KSPGetPC(ksp, &pc));
+    PETSC_CHECK(PCSetType(pc, PCSHELL));
+    PETSC_CHECK(PCShellSetContext(pc, this));
+    PETSC_CHECK(PCShellSetApply(pc, shellSolve));
 }
 
 
 void Foam::condensedTangent::setAccuracy(const scalar tolerance)
 {
-    KSPSetTolerances(
+    PETSC_CHECK(KSPSetTolerances(
         solver_, tolerance, PETSC_DEFAULT, PETSC_DEFAULT, PETSC_DEFAULT
-    );
+    ));
 }
 
 
@@ -415,7 +427,7 @@ void Foam::condensedTangent::clear(const boolList& cells)
         preallocate();
         createSolver();
     }
-    MatZeroEntries(A_);
+    PETSC_CHECK(MatZeroEntries(A_));
     B_ = 0;
     C_ = 0;
     D_ = 1;
@@ -450,24 +462,26 @@ void Foam::condensedTangent::add(
             A[i * n + j] = J[i * (n + 1) + j] - b * C_[start + j];
         }
     }
-    MatSetValues(A_, n, rows.cdata(), n, cols.cdata(), A.cdata(), ADD_VALUES);
+    PETSC_CHECK(MatSetValues(
+        A_, n, rows.cdata(), n, cols.cdata(), A.cdata(), ADD_VALUES
+    ));
 }
 
 
 void Foam::condensedTangent::fix(const PetscInt row)
 {
     const scalar one = 1;
-    MatSetValues(A_, 1, &row, 1, &row, &one, ADD_VALUES);
+    PETSC_CHECK(MatSetValues(A_, 1, &row, 1, &row, &one, ADD_VALUES));
 }
 
 
 void Foam::condensedTangent::finish()
 {
-    MatAssemblyBegin(A_, MAT_FINAL_ASSEMBLY);
-    MatAssemblyEnd(A_, MAT_FINAL_ASSEMBLY);
-    MatAssemblyBegin(shell_, MAT_FINAL_ASSEMBLY);
-    MatAssemblyEnd(shell_, MAT_FINAL_ASSEMBLY);
-    KSPSetOperators(solver_, A_, A_);
+    PETSC_CHECK(MatAssemblyBegin(A_, MAT_FINAL_ASSEMBLY));
+    PETSC_CHECK(MatAssemblyEnd(A_, MAT_FINAL_ASSEMBLY));
+    PETSC_CHECK(MatAssemblyBegin(shell_, MAT_FINAL_ASSEMBLY));
+    PETSC_CHECK(MatAssemblyEnd(shell_, MAT_FINAL_ASSEMBLY));
+    PETSC_CHECK(KSPSetOperators(solver_, A_, A_));
 }
 
 // ************************************************************************* //

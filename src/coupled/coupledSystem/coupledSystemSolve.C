@@ -73,8 +73,8 @@ void Foam::coupledSystem::setPetsc(const dictionary& dict)
         ),
         "VecCreateMPI"
     );
-    VecSetOption(x_, VEC_IGNORE_NEGATIVE_INDICES, PETSC_TRUE);
-    VecDuplicate(x_, f_.set());
+    PETSC_CHECK(VecSetOption(x_, VEC_IGNORE_NEGATIVE_INDICES, PETSC_TRUE));
+    PETSC_CHECK(VecDuplicate(x_, f_.set()));
 
     // The pressures of each processor follow its velocities
     const globalIndex velocities(nVelocities);
@@ -94,14 +94,14 @@ void Foam::coupledSystem::setPetsc(const dictionary& dict)
     forAll(pCell_, c) rows.append(firstCellRow_ + c);
 
     petscIS from;
-    ISCreateGeneral(
+    PETSC_CHECK(ISCreateGeneral(
         PETSC_COMM_SELF,
         rows.size(),
         rows.cdata(),
         PETSC_COPY_VALUES,
         from.set()
-    );
-    VecCreateSeq(PETSC_COMM_SELF, rows.size(), local_.set());
+    ));
+    PETSC_CHECK(VecCreateSeq(PETSC_COMM_SELF, rows.size(), local_.set()));
     petscCheck(
         VecScatterCreate(x_, from, local_, nullptr, scatter_.set()),
         "VecScatterCreate"
@@ -109,14 +109,16 @@ void Foam::coupledSystem::setPetsc(const dictionary& dict)
 
     tangent_.reset(new condensedTangent(space_, scatter_, local_, slabs_));
 
-    SNESCreate(PETSC_COMM_WORLD, snes_.set());
-    SNESSetOptionsPrefix(snes_, "bolus_");
-    SNESSetFunction(snes_, f_, residualFunction, this);
-    SNESSetJacobian(
+    PETSC_CHECK(SNESCreate(PETSC_COMM_WORLD, snes_.set()));
+    PETSC_CHECK(SNESSetOptionsPrefix(snes_, "bolus_"));
+    PETSC_CHECK(SNESSetFunction(snes_, f_, residualFunction, this));
+    PETSC_CHECK(SNESSetJacobian(
         snes_, tangent_->matrix(), tangent_->matrix(), jacobianFunction, this
+    ));
+    PETSC_CHECK(
+        SNESSetConvergenceTest(snes_, convergedFunction, this, nullptr)
     );
-    SNESSetConvergenceTest(snes_, convergedFunction, this, nullptr);
-    SNESSetTolerances(snes_, 0, 0, 1e-12, maxIterations_, 10000);
+    PETSC_CHECK(SNESSetTolerances(snes_, 0, 0, 1e-12, maxIterations_, 10000));
     tangent_->attach(snes_);
     petscCheck(SNESSetFromOptions(snes_), "petscOptions of fvSolution");
 }
@@ -124,15 +126,19 @@ void Foam::coupledSystem::setPetsc(const dictionary& dict)
 
 void Foam::coupledSystem::gather(Vec x)
 {
-    VecScatterBegin(scatter_, x, local_, INSERT_VALUES, SCATTER_FORWARD);
-    VecScatterEnd(scatter_, x, local_, INSERT_VALUES, SCATTER_FORWARD);
+    PETSC_CHECK(
+        VecScatterBegin(scatter_, x, local_, INSERT_VALUES, SCATTER_FORWARD)
+    );
+    PETSC_CHECK(
+        VecScatterEnd(scatter_, x, local_, INSERT_VALUES, SCATTER_FORWARD)
+    );
 
     const PetscScalar* v;
-    VecGetArrayRead(local_, &v);
+    PETSC_CHECK(VecGetArrayRead(local_, &v));
     label i = 0;
     forAll(q_, j) q_[j] = U0_ * v[i++];
     forAll(pCell_, c) pCell_[c] = P0_ * v[i++] + shift_[c];
-    VecRestoreArrayRead(local_, &v);
+    PETSC_CHECK(VecRestoreArrayRead(local_, &v));
 
     if (!eliminate_ || eliminateRoom_ == 0) return;
     pGiven_ = pCell_;
@@ -147,7 +153,7 @@ void Foam::coupledSystem::assemble(Vec f, condensedTangent* J) const
 {
     const label nd = space_.nd();
 
-    if (f) VecSet(f, 0);
+    if (f) PETSC_CHECK(VecSet(f, 0));
     if (J) J->clear(solved_);
 
     DynamicList<scalar> R;
@@ -182,7 +188,9 @@ void Foam::coupledSystem::assemble(Vec f, condensedTangent* J) const
         {
             rows.append(firstCellRow_ + c);
             for (label i = 0; i <= n; ++i) R[i] *= rowScale[i];
-            VecSetValues(f, n + 1, rows.cdata(), R.cdata(), ADD_VALUES);
+            PETSC_CHECK(
+                VecSetValues(f, n + 1, rows.cdata(), R.cdata(), ADD_VALUES)
+            );
         }
         else
         {
@@ -209,7 +217,7 @@ void Foam::coupledSystem::assemble(Vec f, condensedTangent* J) const
                 const PetscInt row = nodeRow_[node] + k;
                 const scalar v =
                     (q_[nd * node + k] - space_.fixedValue(node, k)) / U0_;
-                VecSetValues(f, 1, &row, &v, ADD_VALUES);
+                PETSC_CHECK(VecSetValues(f, 1, &row, &v, ADD_VALUES));
             }
             else
             {
@@ -220,8 +228,8 @@ void Foam::coupledSystem::assemble(Vec f, condensedTangent* J) const
 
     if (f)
     {
-        VecAssemblyBegin(f);
-        VecAssemblyEnd(f);
+        PETSC_CHECK(VecAssemblyBegin(f));
+        PETSC_CHECK(VecAssemblyEnd(f));
     }
     if (J) J->finish();
 }
@@ -232,7 +240,7 @@ void Foam::coupledSystem::computeNorms(Vec f)
     const label nNode = space_.nd() * space_.ownedNodes().size();
 
     const PetscScalar* v;
-    VecGetArrayRead(f, &v);
+    PETSC_CHECK(VecGetArrayRead(f, &v));
     scalar m2 = 0;
     scalar c2 = 0;
     scalar largest = -1;
@@ -247,7 +255,7 @@ void Foam::coupledSystem::computeNorms(Vec f)
             where = i;
         }
     }
-    VecRestoreArrayRead(f, &v);
+    PETSC_CHECK(VecRestoreArrayRead(f, &v));
 
     label n = 0;
     for (const label node : space_.ownedNodes())
@@ -334,7 +342,7 @@ PetscErrorCode Foam::coupledSystem::convergedFunction(
 {
     coupledSystem& system = *static_cast<coupledSystem*>(ctx);
     Vec f;
-    SNESGetFunction(snes, &f, nullptr, nullptr);
+    PETSC_CHECK(SNESGetFunction(snes, &f, nullptr, nullptr));
     system.computeNorms(f);
 
     const report& r = system.report_;
@@ -352,8 +360,8 @@ PetscErrorCode Foam::coupledSystem::convergedFunction(
     if (system.leap_ && residual < system.bestResidual_)
     {
         Vec x;
-        SNESGetSolution(snes, &x);
-        VecCopy(x, system.best_);
+        PETSC_CHECK(SNESGetSolution(snes, &x));
+        PETSC_CHECK(VecCopy(x, system.best_));
         system.bestShift_ = system.shift_;
         system.bestResidual_ = residual;
     }
@@ -392,8 +400,8 @@ SNESConvergedReason Foam::coupledSystem::iterate()
     }
     SNESConvergedReason reason;
     PetscInt iterations;
-    SNESGetConvergedReason(snes_, &reason);
-    SNESGetIterationNumber(snes_, &iterations);
+    PETSC_CHECK(SNESGetConvergedReason(snes_, &reason));
+    PETSC_CHECK(SNESGetIterationNumber(snes_, &iterations));
     report_.iterations += iterations;
     spent_ += iterations;
     return reason;
@@ -403,27 +411,27 @@ SNESConvergedReason Foam::coupledSystem::iterate()
 SNESConvergedReason Foam::coupledSystem::leap()
 {
     SNESLineSearch search;
-    SNESGetLineSearch(snes_, &search);
+    PETSC_CHECK(SNESGetLineSearch(snes_, &search));
     SNESLineSearchType type;
-    SNESLineSearchGetType(search, &type);
+    PETSC_CHECK(SNESLineSearchGetType(search, &type));
     const string given(type); // SetType lets go of it
-    if (!best_) VecDuplicate(x_, best_.set());
+    if (!best_) PETSC_CHECK(VecDuplicate(x_, best_.set()));
     // Half of what was ever reached: the line search between two leaps may lead
     // uphill in this measure, and the two would lead each other in a circle
     const scalar enough = 0.5 * std::min(residual_, bestResidual_);
-    VecCopy(x_, best_);
+    PETSC_CHECK(VecCopy(x_, best_));
     bestShift_ = shift_;
     bestResidual_ = residual_;
 
     leap_ = true;
-    SNESLineSearchSetType(search, SNESLINESEARCHBASIC);
+    PETSC_CHECK(SNESLineSearchSetType(search, SNESLINESEARCHBASIC));
     const SNESConvergedReason reason = iterate();
-    SNESLineSearchSetType(search, given.c_str());
+    PETSC_CHECK(SNESLineSearchSetType(search, given.c_str()));
     leap_ = false;
 
     if (reason < 0)
     {
-        VecCopy(best_, x_);
+        PETSC_CHECK(VecCopy(best_, x_));
         shift_ = bestShift_;
         gather(x_);
         qLast_ = q_;
@@ -492,7 +500,7 @@ const Foam::coupledSystem::report& Foam::coupledSystem::solve(
     space_.fromPoints(state_.pointU.primitiveField(), q_);
     const label nd = space_.nd();
     PetscScalar* v;
-    VecGetArray(x_, &v);
+    PETSC_CHECK(VecGetArray(x_, &v));
     label i = 0;
     for (const label node : space_.ownedNodes())
     {
@@ -504,7 +512,7 @@ const Foam::coupledSystem::report& Foam::coupledSystem::solve(
         }
     }
     forAll(solved_, c) v[i++] = solved_[c] ? state_.pStart[c] / P0_ : 0;
-    VecRestoreArray(x_, &v);
+    PETSC_CHECK(VecRestoreArray(x_, &v));
 
     shift_ = 0;
     gather(x_);
@@ -562,11 +570,11 @@ Foam::scalar Foam::coupledSystem::checkTangent(const scalar deltaT)
     solve(deltaT);
 
     petscVec x, f0, f1, d, Jd;
-    VecDuplicate(x_, x.set());
-    VecDuplicate(x_, f0.set());
-    VecDuplicate(x_, f1.set());
-    VecDuplicate(x_, d.set());
-    VecDuplicate(x_, Jd.set());
+    PETSC_CHECK(VecDuplicate(x_, x.set()));
+    PETSC_CHECK(VecDuplicate(x_, f0.set()));
+    PETSC_CHECK(VecDuplicate(x_, f1.set()));
+    PETSC_CHECK(VecDuplicate(x_, d.set()));
+    PETSC_CHECK(VecDuplicate(x_, Jd.set()));
 
     gather(x_);
     if (eliminateRoom_ > 0) shift_ += pCell_ - pGiven_;
@@ -576,29 +584,29 @@ Foam::scalar Foam::coupledSystem::checkTangent(const scalar deltaT)
     assemble(nullptr, &*tangent_);
 
     PetscRandom random;
-    PetscRandomCreate(PETSC_COMM_WORLD, &random);
-    PetscRandomSetInterval(random, -1, 1);
+    PETSC_CHECK(PetscRandomCreate(PETSC_COMM_WORLD, &random));
+    PETSC_CHECK(PetscRandomSetInterval(random, -1, 1));
 
     // Central differences in random directions
     scalar worst = 0;
     for (label i = 0; i < 5; ++i)
     {
-        VecSetRandom(d, random);
-        MatMult(tangent_->matrix(), d, Jd);
+        PETSC_CHECK(VecSetRandom(d, random));
+        PETSC_CHECK(MatMult(tangent_->matrix(), d, Jd));
         const scalar eps = 1e-7;
-        VecWAXPY(x, eps, d, x_);
+        PETSC_CHECK(VecWAXPY(x, eps, d, x_));
         residualFunction(snes_, x, f1, this);
-        VecWAXPY(x, -eps, d, x_);
+        PETSC_CHECK(VecWAXPY(x, -eps, d, x_));
         residualFunction(snes_, x, f0, this);
-        VecAXPY(f1, -1, f0);
-        VecScale(f1, 1 / (2 * eps));
+        PETSC_CHECK(VecAXPY(f1, -1, f0));
+        PETSC_CHECK(VecScale(f1, 1 / (2 * eps)));
         PetscReal norm, difference;
-        VecNorm(Jd, NORM_2, &norm);
-        VecAXPY(f1, -1, Jd);
-        VecNorm(f1, NORM_2, &difference);
+        PETSC_CHECK(VecNorm(Jd, NORM_2, &norm));
+        PETSC_CHECK(VecAXPY(f1, -1, Jd));
+        PETSC_CHECK(VecNorm(f1, NORM_2, &difference));
         worst = max(worst, scalar(difference / norm));
     }
-    PetscRandomDestroy(&random);
+    PETSC_CHECK(PetscRandomDestroy(&random));
     eliminate_ = true;
     return worst;
 }
