@@ -121,6 +121,13 @@ BAD = {
         "side { type fixedValue; value uniform (0 0 0); }",
         ["side", "fixedValue", "contactWall", "zeroGradient"],
     ),
+    "contact on a patch that is no wall": (
+        "0/U",
+        r"side\s*\{[^}]*\}",
+        "side { type contactWall; friction { type none; } "
+        "value uniform (0 0 0); }",
+        ["side", "contactWall", "type patch", "valid is type wall"],
+    ),
     "linear solver": (
         "system/fvSolution",
         r"bolus \{",
@@ -251,7 +258,9 @@ def test_a_step_that_cannot_converge_ends_the_run_and_keeps_what_was_written(
         "bolus { maxIterations 1; tolerance 1e-14; }",
     )
     replace(
-        case / "system" / "controlDict", "minDeltaT [^;]*", "minDeltaT 0.01"
+        case / "system" / "controlDict",
+        "maxCourant",
+        "minDeltaT 0.01;\nmaxCourant",
     )
     output = run(case, "bolusFoam", ok=False)
     message = " ".join(output[output.index("FOAM FATAL") :].split())

@@ -55,6 +55,15 @@ Foam::List<Foam::nodalSpace::patchKind> Foam::coupledSystem::kinds(
         }
         else if (isA<contactWallFvPatchVectorField>(Up))
         {
+            // Else it has no normal for the bolus to part along
+            if (!isA<wallPolyPatch>(pp))
+            {
+                FatalErrorInFunction
+                    << "field U, patch " << pp.name() << ": entry type:"
+                    << " contactWall, and the patch is of type " << pp.type()
+                    << "; valid is type wall in constant/polyMesh/boundary"
+                    << exit(FatalError);
+            }
             result[patchi] = refCast<const contactWallFvPatchVectorField>(Up)
                                  .friction()
                                  .sticks()
