@@ -89,7 +89,7 @@ MUTATIONS = (
     ),
     Mutation(
         "motility beside the axis of the wedge",
-        "src/motility/lumenMotionSolver/lumenMotionSolver.C",
+        "src/motility/lumenMotion/lumenMotion.C",
         "if (!wedge.valid()) return;",
         "return;",
         ("src/motility",),

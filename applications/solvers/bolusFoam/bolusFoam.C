@@ -251,7 +251,7 @@ int main(int argc, char* argv[])
         energy.step(system, runTime.deltaTValue());
 
         control.done(solved.iterations, moved.bulkCourant);
-        report.step(solved, moved, system.bolusRate());
+        report.step(solved, moved, system.bolusRate(), system.flowRate());
 
         if (control.write())
         {

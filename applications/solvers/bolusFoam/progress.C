@@ -73,7 +73,8 @@ Foam::progress::progress(
 void Foam::progress::step(
     const coupledSystem::report& solved,
     const historyTransport::report& moved,
-    const scalar bolusRate
+    const scalar bolusRate,
+    const scalar flowRate
 )
 {
     scalar out = 0;
@@ -122,7 +123,7 @@ void Foam::progress::step(
     alphaMin_ = min(alphaMin_, low);
     alphaMax_ = max(alphaMax_, high);
 
-    largestRate_ = max(largestRate_, bolusRate);
+    largestRate_ = max(largestRate_, flowRate);
     strain_ += bolusRate * time_.deltaTValue();
     strainTime_ += time_.deltaTValue();
     books_.add("largestRate", largestRate_, true);
@@ -192,7 +193,8 @@ void Foam::progress::tellRate() const
     WarningInFunction
         << "the bolus deforms at " << strain_ / strainTime_
         << " /s in the mean, at most " << largestRate_
-        << " /s, and the case's strainRate (controlDict) is " << typicalRate_
+        << " /s where it does, and the case's strainRate (controlDict) is "
+        << typicalRate_
         << " /s: tolerances, the void's viscosities and other artificial"
         << " numbers are made for that one and may be felt. Set strainRate to"
         << " that of the bolus" << endl;
@@ -217,7 +219,8 @@ void Foam::progress::summary(const label linearIterations) const
          << nl << "    alpha            " << alphaMin_ << " to " << alphaMax_
          << nl;
     Info << "    strain rate      " << strain_ / max(strainTime_, VSMALL)
-         << " /s mean of the bolus, largest " << largestRate_ << nl;
+         << " /s mean of the bolus, at most " << largestRate_
+         << " /s where it deforms" << nl;
     tellRate();
     energy_.report();
     Info << "    clock time       " << clock_.elapsedTime() << " s" << nl

@@ -271,7 +271,8 @@ Foam::coupledSystem::coupledSystem(
     U0_(0.01 * scales.strainRate()),
     P0_(1e4 * scales.stressRatio()),
     rate0_(10 * scales.strainRate()),
-    bolusRate_(0)
+    bolusRate_(0),
+    flowRate_(0)
 {
 
     entryReader read(dict);
@@ -429,6 +430,7 @@ void Foam::coupledSystem::accept(
     const boolList held(heldNodes());
     scalar bolus = 0;
     bolusRate_ = 0;
+    flowRate_ = 0;
 
     forAll(pCell_, c)
     {
@@ -437,9 +439,10 @@ void Foam::coupledSystem::accept(
         {
             evaluate(c, r);
             internalForce(c, r, R);
+            const scalar rate = std::sqrt(2.0 / 3) * mag(dev(symm(r.gradU)));
             bolus += a_[c] * space_.V()[c];
-            bolusRate_ += a_[c] * space_.V()[c] * std::sqrt(2.0 / 3)
-                * mag(dev(symm(r.gradU)));
+            bolusRate_ += a_[c] * space_.V()[c] * rate;
+            flowRate_ += a_[c] * space_.V()[c] * sqr(rate);
             bookPower(c, r, R, held);
             forAll(R, i)
             {
@@ -516,6 +519,8 @@ void Foam::coupledSystem::accept(
     }
     reduce(bolus, sumOp<scalar>());
     reduce(bolusRate_, sumOp<scalar>());
+    reduce(flowRate_, sumOp<scalar>());
+    flowRate_ /= max(bolusRate_, VSMALL);
     bolusRate_ /= max(bolus, VSMALL);
     state_.U.correctBoundaryConditions();
     state_.p.correctBoundaryConditions();
