@@ -77,9 +77,9 @@ def test_a_rough_cylinder_in_a_perfectly_plastic_body(rough):
 
 
 def test_the_force_does_not_ripple_as_the_tool_crosses_cells(rough):
-    # 2 % asked for. The mesh goes with the tool: found 1e-4 for most of the way.
-    # Near its end 4e-3: residuals in units that differ by a tenth lead to one of
-    # several states, each in equilibrium (1e-4 with others)
+    # 2 % asked for. The mesh goes with the tool: found 1e-4 for most of the
+    # way. Near its end 4e-3: residuals in units that differ by a tenth lead to
+    # one of several states, each in equilibrium (1e-4 with others)
     way, along = rough
     steady = along[way > 0.2]
     assert np.ptp(steady) / steady.mean() < 0.01

@@ -2,7 +2,10 @@
 # Copyright (C) 2026 the bolusFoam developers
 """What a kept run depends on."""
 
+import importlib.util
+import sys
 from concurrent.futures import Future
+from pathlib import Path
 
 import pytest
 from bolus_validation import studies
@@ -71,3 +74,18 @@ def test_a_long_study_runs_only_where_it_is_named(tmp_path, monkeypatch):
     assert ran == ["short"]
     assert studies.run_all("page", "", ["hours"]) == 0
     assert ran == ["short", "hours"]
+
+
+def test_what_the_mutations_break_is_in_the_sources_once():
+    # A mutation that finds no text would break nothing
+    path = Path(__file__).parents[1] / "studies" / "mutations.py"
+    spec = importlib.util.spec_from_file_location("mutations", path)
+    module = importlib.util.module_from_spec(spec)
+    sys.modules["mutations"] = module
+    spec.loader.exec_module(module)
+    lost = [
+        m.name
+        for m in module.MUTATIONS
+        if (module.ROOT / m.file).read_text().count(m.old) != 1
+    ]
+    assert lost == []
