@@ -46,6 +46,9 @@ FINE = 0.5  # those of the best sets [mm]
 # Sets that are run, starts included, before the estimator has a say; its seed
 AT_RANDOM, SEED = 16, 34
 
+# By these the best sets that are shown differ
+READINGS = ("times", "tensile")
+
 # A case as its tutorial has it, without pictures and summary
 ALLRUN = """\
 #!/usr/bin/env bash
@@ -196,6 +199,15 @@ class Records:
         ]
         return sorted(found, key=score)
 
+    def best(self, few: int) -> list[dict]:
+        """The best of the search, each by another timeline or kind of
+        fracture: neighbours tell the same."""
+        found: dict = {}
+        for record in self.searched():
+            reading = tuple(record["set"][name] for name in READINGS)
+            found.setdefault(reading, record)
+        return list(found.values())[:few]
+
     def of(self, chosen: dict, case: str, size: float, other=()) -> dict | None:
         """That of a set, if it has been run."""
         for r in self.all:
@@ -337,7 +349,7 @@ def judge(base: Path, records: Records, few: int, workers: int = 2) -> None:
     """Cases B and C, other steps and finer cells, of the best few sets and the
     tutorial."""
     now = sources()
-    chosen = [r["set"] for r in records.searched()[:few]]
+    chosen = [r["set"] for r in records.best(few)]
     if paper_sets.TUTORIAL not in chosen:
         chosen.append(paper_sets.TUTORIAL)
     jobs = [
@@ -355,7 +367,11 @@ def judge(base: Path, records: Records, few: int, workers: int = 2) -> None:
     ]
     _prepare(base)
     with ProcessPoolExecutor(workers, initializer=_end_with_parent) as pool:
-        waiting = {pool.submit(run, base, job, now): job for job in jobs}
+        # The fine ones stay, to be looked at
+        waiting = {
+            pool.submit(run, base, job, now, job.size == FINE): job
+            for job in jobs
+        }
         for n, future in enumerate(as_completed(waiting), 1):
             job = waiting[future]
             try:

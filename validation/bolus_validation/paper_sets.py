@@ -143,7 +143,7 @@ def _with(radii, centre, full, **others) -> dict:
 
 
 # Where a search begins: the tutorial, what a first random search found best,
-# and each of them by the other timelines
+# and these antra and narrower ones by the other timelines
 STARTS = (
     TUTORIAL,
     _with((15.8, 14.8, 11.3, 8.1), 223.5, 234.0, grows="travel"),
@@ -168,6 +168,17 @@ STARTS = (
         inertia="100",
         cohesion=10.0,
     ),
+    _with((15.7, 14.8, 12.3, 9.4), 222.8, 234.5, times="closes 18 s"),
+    _with((14.6, 13.6, 12.0, 9.4), 222.8, 235.5, times="closes 18 s"),
+    _with(
+        (15.7, 14.8, 12.3, 9.4),
+        222.8,
+        233.0,
+        times="closes 18 s",
+        shell="none",
+        cohesion=20.0,
+    ),
+    _with((13.9, 12.8, 11.4, 9.0), 222.8, 233.0),
 )
 
 
