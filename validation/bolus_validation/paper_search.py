@@ -352,15 +352,16 @@ def judge(base: Path, records: Records, few: int, workers: int = 2) -> None:
     chosen = [r["set"] for r in records.best(few)]
     if paper_sets.TUTORIAL not in chosen:
         chosen.append(paper_sets.TUTORIAL)
+    # Set by set: what is stopped has all of the best
     jobs = [
         Job(one, case, size, other)
+        for one in chosen
         for case, size, other in (
             ("A", FINE, ()),
             ("B", COARSE, ()),
             ("C", COARSE, ()),
             ("A", COARSE, CHANCE),
         )
-        for one in chosen
     ]
     jobs = [
         j for j in jobs if not records.of(j.chosen, j.case, j.size, j.other)

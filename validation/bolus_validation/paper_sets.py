@@ -179,6 +179,23 @@ STARTS = (
         cohesion=20.0,
     ),
     _with((13.9, 12.8, 11.4, 9.0), 222.8, 233.0),
+    # Close about the sphere, narrowing late
+    _with(
+        (14.2, 13.8, 12.6, 9.8),
+        222.8,
+        234.5,
+        times="closes 18 s",
+        cohesion=15.0,
+    ),
+    _with((14.2, 13.8, 12.6, 9.8), 222.8, 233.0, cohesion=30.0),
+    _with((13.9, 12.8, 11.4, 9.0), 222.8, 233.0, cohesion=12.0),
+    _with(
+        (14.0, 13.9, 13.2, 10.4),
+        222.8,
+        235.0,
+        times="closes 18 s",
+        cohesion=30.0,
+    ),
 )
 
 
