@@ -73,9 +73,12 @@ class Job:
 
     @property
     def entries(self) -> dict:
-        """Its -set entries."""
+        """Its -set entries; case C has no damage."""
+        own = paper_sets.settings(self.chosen)
+        if self.case == "C":
+            del own["tensileStrain"]
         return {
-            **paper_sets.settings(self.chosen),
+            **own,
             **{k: f"{v:g}" for k, v in gastric_settings(self.size).items()},
             **dict(self.other),
         }
@@ -311,6 +314,11 @@ def search(
     now = sources()
     records = Records(base, now)
     _prepare(base)
+    kept = {record["key"] for record in records.all}
+    for folder in (base / "runs").glob("*"):
+        # Of a search that was stopped
+        if folder.name not in kept:
+            shutil.rmtree(folder)
     proposals = Proposals(records.searched())
     start, ran = time.monotonic(), 0
     left = number - len(records.searched())

@@ -71,7 +71,7 @@ PARAMETERS = (
         "wave 0.9 deep from",
         "mm",
         (232.0, 240.0),
-        "at 240 mm. Of the wave's tip that is 240, of its front 234 mm",
+        "at 240 mm. Its front is there when its tip is at 233 to 234 mm",
     ),
     Parameter(
         "grows",
@@ -196,6 +196,19 @@ STARTS = (
         times="closes 18 s",
         cohesion=30.0,
     ),
+    # ... and break by strain under tension
+    _with((13.42, 12.46, 11.83, 8.72), 223.46, 232.93, tensile="0.1"),
+    _with((14.2, 13.8, 12.6, 9.8), 222.8, 233.0, cohesion=30.0, tensile="0.1"),
+    _with(
+        (13.42, 12.46, 11.83, 8.72),
+        223.46,
+        232.93,
+        tensile="0.1",
+        cohesion=45.0,
+    ),
+    _with((13.7, 13.0, 12.1, 9.1), 223.2, 233.0, tensile="0.1", cohesion=50.0),
+    _with((13.9, 13.3, 12.3, 9.4), 223.0, 232.7, tensile="0.1", cohesion=30.0),
+    _with((13.5, 12.7, 12.0, 9.0), 223.4, 233.4, tensile="0.1", cohesion=60.0),
 )
 
 
