@@ -3,6 +3,7 @@
 """The search for the paper's stomach: its score, its sets, its restart."""
 
 import json
+import re
 import subprocess
 import sys
 from concurrent.futures import Future
@@ -105,6 +106,22 @@ def test_every_proposed_set_keeps_to_the_text():
                 assert p.values[0] <= chosen[p.name] <= p.values[1]
         record = {"set": chosen, "rows": NONE if n % 2 else PAPERS}
         proposals.tell(trial, record)
+
+
+def test_the_stomach_of_case_a_as_reported_keeps_to_the_text():
+    case = paper_search.ROOT / "tutorials" / "gastric" / "caseA_asReported"
+    text = (case / "constant" / "motilityProperties").read_text()
+    table = re.findall(r"\((\S+) +(\S+)\)\n", text.split("profile")[1])
+    x, r = 1e3 * np.array(table, dtype=float)[: len(PROFILE)].T
+    start = (case / "system" / "setAlphaFieldDict").read_text()
+    centre = 1e3 * float(re.search(r"origin +\((\S+)", start)[1])
+    chosen = paper_sets.TUTORIAL | {"centre": round(centre, 3)}
+    for at in (220, 230, 240, 245):
+        chosen[f"r{at}"] = r[x.round() == at][0]
+    assert paper_sets.fault(chosen) is None
+    assert paper_sets.volume(np.column_stack([x, r])) == pytest.approx(
+        0.88e6, rel=1e-3
+    )
 
 
 @pytest.mark.parametrize(
