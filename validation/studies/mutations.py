@@ -154,8 +154,8 @@ MUTATIONS = (
     Mutation(
         "fields written with few digits",
         "applications/solvers/bolusFoam/writtenTime.C",
-        "const label least = 10;",
-        "const label least = 1;",
+        "constexpr unsigned leastDigits = 10;",
+        "constexpr unsigned leastDigits = 1;",
         SOLVER,
         "test_runs.py -k lose_digits",
     ),

@@ -119,6 +119,20 @@ def test_a_motility_beside_the_axis_of_the_wedge_is_refused(
     assert "away from the axis of the wedge mesh" in message
 
 
+def test_a_function_object_may_have_an_origin_of_its_own(straight, tmp_path):
+    # Its throat is 0.252 m from there, where the mesh ends
+    case = elsewhere(straight, tmp_path / "case", "", "-scale", "(1 1 1)")
+    replace(
+        case / "system" / "controlDict",
+        r"throat  ",
+        "origin (0.1 0 0); axis (1 0 0); throat  ",
+    )
+    message = " ".join(run(case, "bolusFoam", ok=False).split())
+    assert "'throat' is 0.252 m; valid are places in the mesh, from 0.11 m" in (
+        message
+    )
+
+
 def test_an_axis_of_a_function_object_across_the_wedge_is_refused(
     straight, tmp_path
 ):

@@ -283,12 +283,17 @@ def test_controlDict_may_change_while_a_run_goes_on(case):
     wait_for(case / "0.01" / "uniform" / "complete")
     control(case, "maxDeltaT", -1)
     time.sleep(1)
+    control(case, "writePrecision", 6)
+    control(case, "strainRate", 0.2)
     control(case, "maxDeltaT", 0.1)
     control(case, "writeInterval", 0.5)
     output, _ = running.communicate(timeout=100)
     assert running.returncode == 0, output[-1000:]
     assert "is not taken over: entry maxDeltaT: -1; valid are" in output
     assert "maxDeltaT 0.1 s" in output
+    told = " ".join(output.split())
+    assert "strainRate has changed. It counts from the next start on" in told
+    assert "writePrecision is 6 now: written with 10 digits" in told
     steps = read_table(case, "solver", "steps")
     assert steps["deltaT"][-1] > 0.05
     late = [p.name for p in case.glob("[01].[0-9]*") if float(p.name) > 1]

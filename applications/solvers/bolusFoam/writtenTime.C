@@ -20,6 +20,10 @@ struct nameDigits : public Time
     }
 };
 
+//- Of case A, half a second after a restart, the force is another one by 4e-5
+//  with 6 digits, 6e-7 with 8, 2e-9 with 10
+constexpr unsigned leastDigits = 10;
+
 } // End namespace Foam
 
 
@@ -45,15 +49,13 @@ void Foam::writtenTime::requireDigits() const
 {
     const dictionary& dict = time_.controlDict();
 
-    // Of case A, half a second after a restart, the force is another one by
-    // 4e-5 with 6 digits, 6e-7 with 8, 2e-9 with 10
-    const label least = 10;
-    const label digits = label(IOstream::defaultPrecision());
-    if (time_.writeFormat() == IOstream::ASCII && digits < least)
+    const unsigned digits = IOstream::defaultPrecision();
+    if (time_.writeFormat() == IOstream::ASCII && digits < leastDigits)
     {
         FatalIOErrorInFunction(dict)
             << "entry writePrecision: " << digits << " with writeFormat ascii;"
-            << " valid are " << least << " and more, or writeFormat binary:"
+            << " valid are " << leastDigits
+            << " and more, or writeFormat binary:"
             << " with fewer digits a run that goes on from what was written"
             << " would be another run" << exit(FatalIOError);
     }
@@ -105,12 +107,20 @@ void Foam::writtenTime::write()
     const fileName folder(time_.timePath());
     // Until it is written again, what is there is not to be trusted
     rm(mark(folder));
-    // Dictionaries are ascii whatever the fields are
+    // Dictionaries are ascii whatever the fields are; and controlDict may have
+    // changed since the start
+    const bool ascii = time_.writeFormat() == IOstream::ASCII;
     const unsigned digits = IOstream::defaultPrecision();
-    if (time_.writeFormat() == IOstream::BINARY)
+    const unsigned least = ascii ? leastDigits : 17u;
+    if (ascii && digits < least)
     {
-        IOstream::defaultPrecision(max(digits, 17u));
+        WarningInFunction << "t " << time_.value() << " s: writePrecision is "
+                          << digits << " now: written with " << least
+                          << " digits all the same, so that"
+                          << " a run that goes on from here is the same run"
+                          << endl;
     }
+    IOstream::defaultPrecision(max(digits, least));
     bool written = time_.writeNow();
     IOstream::defaultPrecision(digits);
     reduce(written, andOp<bool>());

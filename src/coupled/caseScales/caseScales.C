@@ -12,7 +12,16 @@ Foam::caseScales::caseScales(
 ) :
     strainRate_(readStrainRate(controlDict)),
     stress_(min(law.flow().value(strainRate_, 1), 0.096 * law.elastic().E()))
-{}
+{
+    if (!(stress_ > 0))
+    {
+        FatalErrorInFunction
+            << "the flow stress at strainRate " << strainRate_
+            << " /s and a plastic strain of 1 is " << stress_
+            << " Pa; valid is a law with a flow stress > 0 there"
+            << exit(FatalError);
+    }
+}
 
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //

@@ -49,7 +49,8 @@ Foam::stepControl::stepControl(Time& time) :
     steps_(memory_.lookupOrDefault<label>("steps", 0)),
     rejected_(memory_.lookupOrDefault<label>("rejected", 0)),
     iterations_(memory_.lookupOrDefault<label>("iterations", 0)),
-    writeInterval_(0)
+    writeInterval_(0),
+    strainRate_(caseScales::readStrainRate(time.controlDict()))
 {
     read();
 
@@ -131,6 +132,13 @@ void Foam::stepControl::readModified()
     try
     {
         read();
+        if (caseScales::readStrainRate(time_.controlDict()) != strainRate_)
+        {
+            WarningInFunction
+                << "t " << time_.value() << " s: strainRate has changed. It"
+                << " counts from the next start on (-continue); this run goes"
+                << " on with " << strainRate_ << " /s" << endl;
+        }
         Info << "t " << time_.value() << " s: controlDict has changed: endTime "
              << time_.endTime().value() << " s, maxDeltaT " << maxDeltaT_
              << " s, minDeltaT " << minDeltaT_ << " s, maxCourant "
