@@ -25,32 +25,27 @@ ROOT = Path(__file__).parents[2]
 BASE = ROOT / "run" / "validate" / "mutations"
 TREE = BASE / "tree"
 
-COUPLED = ("src/coupled",)
-RHEOLOGY = ("src/rheology",)
 CELL = "src/coupled/coupledSystem/coupledSystemCell.C"
 SYSTEM = "src/coupled/coupledSystem/coupledSystem.C"
 SOLVE = "src/coupled/coupledSystem/coupledSystemSolve.C"
-TANGENT = "src/coupled/condensedTangent/condensedTangent.C"
+TANGENT = "src/linear/condensedTangent/condensedTangent.C"
 ENERGY = "src/coupled/coupledSystem/coupledSystemEnergy.C"
-SPACE = "src/coupled/nodalSpace/nodalSpace.C"
-MEMORY = "src/coupled/historyTransport/historyTransportMemory.C"
-FLUX = "src/coupled/historyTransport/historyTransportFlux.C"
-TRANSPORT = "src/coupled/historyTransport/historyTransport.C"
+SPACE = "src/space/nodalSpace/nodalSpace.C"
+MEMORY = "src/transport/historyTransport/historyTransportMemory.C"
+FLUX = "src/transport/historyTransport/historyTransportFlux.C"
+TRANSPORT = "src/transport/historyTransport/historyTransport.C"
 POINT = "src/rheology/elastoViscoPlastic/elastoViscoPlasticI.H"
-SOLVER = ("applications/solvers/bolusFoam",)
-SPACE_LIBRARY = ("src/space",)
 
 
 @dataclass(frozen=True)
 class Mutation:
-    """What is broken: text old -> new in file; build: folders to build; test:
-    arguments of pytest under validation/tests that have to fail."""
+    """What is broken: text old -> new in file; test: arguments of pytest
+    under validation/tests that have to fail."""
 
     name: str
     file: str
     old: str
     new: str
-    build: tuple
     test: str
 
 
@@ -60,7 +55,6 @@ MUTATIONS = (
         "src/space/wedgeFrame/wedgeFrame.C",
         "origin_ = sum / found;",
         "origin_ = Zero;",
-        SPACE_LIBRARY,
         "test_axis.py -k sideways",
     ),
     Mutation(
@@ -68,15 +62,13 @@ MUTATIONS = (
         SPACE,
         "if (onAxis_[n]) constrain(n, e2_);",
         "",
-        COUPLED,
         "test_axis.py -k hair",
     ),
     Mutation(
         "stress limited by its components in space, not in the slice",
-        "src/coupled/nodalSpace/nodalSpace.H",
+        "src/space/nodalSpace/nodalSpace.H",
         "return tensor(e1_, e2_, e3_);",
         "return tensor::I;",
-        (*COUPLED, *SOLVER),
         "test_axis.py -k plane",
     ),
     Mutation(
@@ -84,7 +76,6 @@ MUTATIONS = (
         "src/functionObjects/axialFrame/axialFrame.C",
         'origin_ = motility.lookupOrDefault<point>("origin", point(Zero));',
         "",
-        ("src/functionObjects",),
         "test_axis.py -k along",
     ),
     Mutation(
@@ -92,7 +83,6 @@ MUTATIONS = (
         "src/motility/lumenMotion/lumenMotion.C",
         "if (!wedge.valid()) return;",
         "return;",
-        ("src/motility",),
         "test_axis.py -k beside",
     ),
     Mutation(
@@ -100,7 +90,6 @@ MUTATIONS = (
         "src/functionObjects/vanDerWaals/vanDerWaals.C",
         "min(invariant(l1, l2, l3), largest_)",
         "invariant(l1, l2, l3)",
-        ("src/functionObjects",),
         "test_bolus_functions.py -k beyond",
     ),
     Mutation(
@@ -108,15 +97,13 @@ MUTATIONS = (
         "applications/solvers/bolusFoam/runLock.C",
         "::flock(file_, LOCK_EX | LOCK_NB) == 0",
         "true",
-        SOLVER,
         "test_runs.py -k second_run",
     ),
     Mutation(
         "PETSc's handlers of signals for OpenFOAM's",
-        "src/coupled/petscHandles/petscHandles.H",
+        "src/linear/petscHandles/petscHandles.H",
         '"-no_signal_handler", "1"',
         '"-no_signal_handler", "0"',
-        SOLVER,
         "test_runs.py -k SIGFPE",
     ),
     Mutation(
@@ -124,7 +111,6 @@ MUTATIONS = (
         "applications/solvers/bolusFoam/bolusFields.C",
         "forState(requireNumbers());",
         "",
-        SOLVER,
         "test_runs.py -k no_number",
     ),
     Mutation(
@@ -132,7 +118,6 @@ MUTATIONS = (
         "applications/solvers/bolusFoam/bolusFoam.C",
         "meshCheck::requireSoundCells(mesh);",
         "",
-        SOLVER,
         "test_runs.py -k inside_out",
     ),
     Mutation(
@@ -140,7 +125,6 @@ MUTATIONS = (
         "applications/solvers/bolusFoam/bolusFoam.C",
         "if (again) mesh.movePoints",
         "if (false) mesh.movePoints",
-        SOLVER,
         "test_runs.py -k done_again",
     ),
     Mutation(
@@ -148,7 +132,6 @@ MUTATIONS = (
         "applications/solvers/bolusFoam/writtenTime.C",
         "    findName();\n    const fileName folder",
         "    const fileName folder",
-        SOLVER,
         "test_runs.py -k found_again",
     ),
     Mutation(
@@ -156,39 +139,34 @@ MUTATIONS = (
         "applications/solvers/bolusFoam/writtenTime.C",
         "constexpr unsigned leastDigits = 10;",
         "constexpr unsigned leastDigits = 1;",
-        SOLVER,
         "test_runs.py -k lose_digits",
     ),
     Mutation(
         "controlDict is not read again",
-        "src/coupled/stepControl/stepControl.C",
+        "src/time/stepControl/stepControl.C",
         "    readModified();\n",
         "",
-        COUPLED,
         "test_runs.py -k controlDict",
     ),
     Mutation(
         "residuals of any case in units of the oatcake's",
-        "src/coupled/caseScales/caseScales.H",
+        "src/rheology/caseScales/caseScales.H",
         "return stress_ / 9600;",
         "return 1;",
-        (*COUPLED, *SOLVER),
         "test_scales.py -k any_strength",
     ),
     Mutation(
         "void of any case at 0.1/s",
-        "src/coupled/caseScales/caseScales.H",
+        "src/rheology/caseScales/caseScales.H",
         "return 0.1 / strainRate_;",
         "return 1;",
-        (*COUPLED, *SOLVER),
         "test_scales.py -k any_strength",
     ),
     Mutation(
         "bolus on the wrong side of the interface in transport",
-        "src/coupled/planarInterface/planarInterface.H",
+        "src/interface/planarInterface/planarInterface.H",
         "along > 0 ? d",
         "along < 0 ? d",
-        COUPLED,
         "test_physics.py -k rotation",
     ),
     Mutation(
@@ -196,7 +174,6 @@ MUTATIONS = (
         "src/rheology/radialReturn/radialReturn.C",
         "slopeElastic = 3 * G_ * dt",
         "slopeElastic = 2 * G_ * dt",
-        RHEOLOGY,
         "test_rheology.py",
     ),
     Mutation(
@@ -204,15 +181,13 @@ MUTATIONS = (
         POINT,
         "r.sRot = symm(Q & sOld & Q.T());",
         "r.sRot = sOld;",
-        COUPLED,
         "test_physics.py -k shear",
     ),
     Mutation(
         "crumbs without cohesion",
-        "src/coupled/voidLaw/voidLaw.H",
+        "src/phases/voidLaw/voidLaw.H",
         "const scalar pt = pv + cohesion;",
         "const scalar pt = pv;",
-        COUPLED,
         "test_void.py",
     ),
     Mutation(
@@ -220,7 +195,6 @@ MUTATIONS = (
         POINT,
         "((r.dqdqTrial - r.theta)",
         "((0.9 * r.dqdqTrial - r.theta)",
-        COUPLED,
         "test_solver.py -k tangent_equals",
     ),
     Mutation(
@@ -228,7 +202,6 @@ MUTATIONS = (
         "src/rheology/flowStress/tabulated/tabulatedFlowStress.C",
         "return stresses_[i] + fraction *",
         "return stresses_[i] + 0 * fraction *",
-        RHEOLOGY,
         "test_rheology.py -k tabulated",
     ),
     Mutation(
@@ -236,7 +209,6 @@ MUTATIONS = (
         "src/rheology/flowStress/powerHardening/powerHardeningFlowStress.C",
         "hardensUntil_);\n",
         "GREAT);\n",
-        RHEOLOGY,
         "test_rheology.py -k JLawThatEnds",
     ),
     Mutation(
@@ -244,7 +216,6 @@ MUTATIONS = (
         "src/rheology/damageModel/triaxialOnsetDamage/triaxialOnsetDamage.H",
         "epsP > epsilonPEq0_ && eta > eta0_",
         "epsP > epsilonPEq0_ && eta < GREAT",
-        RHEOLOGY,
         "test_physics_contact.py -k noFracture",
     ),
     Mutation(
@@ -252,7 +223,6 @@ MUTATIONS = (
         "src/rheology/damageModel/triaxialOnsetDamage/triaxialOnsetDamage.H",
         "&& tensileStrain >= tensileStrain_;",
         "&& tensileStrain >= 0;",
-        RHEOLOGY,
         "test_rheology.py -k waits_for_plastic_strain",
     ),
     Mutation(
@@ -260,7 +230,6 @@ MUTATIONS = (
         CELL,
         "return mag(r.r.s) / max(mag(whole.s), VSMALL) * whole.s;",
         "return r.r.s;",
-        COUPLED,
         "test_solver.py -k stress_turns",
     ),
     Mutation(
@@ -268,7 +237,6 @@ MUTATIONS = (
         "src/coupled/coupledSystem/coupledSystemSolve.C",
         "min(max(2 * turnLaterRow_, leastLagTurningSteps_),",
         "min(max(turnLaterRow_, leastLagTurningSteps_),",
-        COUPLED,
         "test_solver_contact.py -k more_steps_turn",
     ),
     Mutation(
@@ -276,7 +244,6 @@ MUTATIONS = (
         "src/coupled/coupledSystem/coupledSystem.C",
         "turnLaterRow_ = 0;",
         "turnLaterRow_ = max(turnLaterRow_, 0);",
-        COUPLED,
         "test_solver_contact.py -k more_steps_turn",
     ),
     Mutation(
@@ -284,7 +251,6 @@ MUTATIONS = (
         "src/functionObjects/cutSurface/cutSurface.C",
         "syncTools::syncPointList(mesh, sum, plusEqOp<scalar>(), scalar(0));",
         "",
-        ("src/functionObjects",),
         "test_bolus_functions.py -k cut_of_processors",
     ),
     Mutation(
@@ -292,7 +258,6 @@ MUTATIONS = (
         CELL,
         "k.pn = lagged_ ? state_.p[c] -",
         "k.pn = lagged_ ? 2 * state_.p[c] -",
-        COUPLED,
         "test_solver_contact.py -k lagged_friction",
     ),
     Mutation(
@@ -300,7 +265,6 @@ MUTATIONS = (
         SPACE,
         "syncTools::syncPointList(mesh_, points, orEqOp<bool>(), false);",
         "",
-        COUPLED,
         "test_cutting.py -k leave_out_the_same_void",
     ),
     Mutation(
@@ -308,7 +272,6 @@ MUTATIONS = (
         TANGENT,
         "    PETSC_CHECK(PCSetFailedReason(pc, solved",
         "    if (!solved) PETSC_CHECK(PCSetFailedReason(pc, solved",
-        COUPLED,
         "test_solver.py -k failed_linear_solution",
     ),
     Mutation(
@@ -316,7 +279,6 @@ MUTATIONS = (
         SOLVE,
         "-bolus_velocity_pc_asm_overlap 1",
         "-bolus_velocity_pc_asm_overlap 0",
-        COUPLED,
         "test_solver.py -k subdomains_overlap",
     ),
     Mutation(
@@ -324,7 +286,6 @@ MUTATIONS = (
         TANGENT,
         "PCASMSetOverlap(pc, overlap)",
         "PCASMSetOverlap(pc, 0)",
-        COUPLED,
         "test_solver.py -k subdomains_overlap",
     ),
     Mutation(
@@ -332,7 +293,6 @@ MUTATIONS = (
         SOLVE,
         "J->extrapolate(c, weight_[c] / rate0_ * tangent.excess);",
         "",
-        COUPLED,
         "test_cutting.py -k shortcuts",
     ),
     Mutation(
@@ -340,7 +300,6 @@ MUTATIONS = (
         CELL,
         "r.r.dqdqTrial = r.r.theta;",
         "",
-        COUPLED,
         "test_gastric.py -k secant",
     ),
     Mutation(
@@ -348,7 +307,6 @@ MUTATIONS = (
         SOLVE,
         "if (!eliminate_ || eliminateRoom_ == 0) return;",
         "return;",
-        COUPLED,
         "test_cutting.py -k shortcuts",
     ),
     Mutation(
@@ -356,7 +314,6 @@ MUTATIONS = (
         SOLVE,
         "eliminateFrom_ *= 0.05;",
         "eliminateFrom_ *= 0.99;",
-        COUPLED,
         "test_cutting.py -k wisps",
     ),
     Mutation(
@@ -364,7 +321,6 @@ MUTATIONS = (
         SOLVE,
         "system.stalled_ == 3",
         "false",
-        COUPLED,
         "test_cutting.py -k wisps",
     ),
     Mutation(
@@ -372,7 +328,6 @@ MUTATIONS = (
         "src/rheology/damageModel/triaxialOnsetDamage/triaxialOnsetDamage.H",
         "epsP > epsilonPEq0_ &&",
         "epsP > 2 * epsilonPEq0_ &&",
-        RHEOLOGY,
         "test_solver_damage.py -k breaks_at_the_plastic_strain",
     ),
     Mutation(
@@ -380,7 +335,6 @@ MUTATIONS = (
         SYSTEM,
         "phi_[c] = damaged_[c] || atWall",
         "phi_[c] = atWall",
-        COUPLED,
         "test_solver_damage.py -k damaged_bar_carries_no_force_in_tension",
     ),
     Mutation(
@@ -388,7 +342,6 @@ MUTATIONS = (
         CELL,
         "r.P = -(a * p + (1 - a) * r.pv);",
         "r.P = -(damaged_[c] ? 0 : 1) * (a * p + (1 - a) * r.pv);",
-        COUPLED,
         "test_solver_damage.py -k damaged_bar_carries_pressure",
     ),
     Mutation(
@@ -396,23 +349,20 @@ MUTATIONS = (
         "applications/solvers/bolusFoam/bolusFields.C",
         "strain(soundStrain / max(1 - D, SMALL))",
         "strain(epsilonPEq)",
-        SOLVER,
         "test_physics_contact.py -k barInTension",
     ),
     Mutation(
         "nonlocal strain without its length",
-        "src/coupled/nonlocalStrain/nonlocalStrain.C",
+        "src/history/nonlocalStrain/nonlocalStrain.C",
         "sqr(length_)",
         "sqr(0.5 * length_)",
-        COUPLED,
         "test_nonlocal.py -k spreads",
     ),
     Mutation(
         "nonlocal strain passes through broken bolus",
-        "src/coupled/nonlocalStrain/nonlocalStrain.C",
+        "src/history/nonlocalStrain/nonlocalStrain.C",
         "= max(sound, scalar(0)) + nothing;",
         "= 0 * sound + 1;",
-        COUPLED,
         "test_nonlocal.py -k broken",
     ),
     Mutation(
@@ -420,7 +370,6 @@ MUTATIONS = (
         TRANSPORT,
         "if (result.tooFast) return result;",
         "result.tooFast = false;",
-        COUPLED,
         "test_solver_input.py -k too_fast",
     ),
     Mutation(
@@ -428,7 +377,6 @@ MUTATIONS = (
         "applications/solvers/bolusFoam/writtenTime.C",
         "&& !isFile(mark(folder))",
         "&& false",
-        SOLVER,
         "test_robustness.py -k to_its_end",
     ),
     Mutation(
@@ -436,7 +384,6 @@ MUTATIONS = (
         SYSTEM,
         "phi_[c] = damaged_[c] || atWall",
         "phi_[c] = damaged_[c]",
-        COUPLED,
         "test_solver_contact.py -k pulled_away",
     ),
     Mutation(
@@ -444,7 +391,6 @@ MUTATIONS = (
         CELL,
         "if (k.pn <= 0) return false;",
         "return false;",
-        COUPLED,
         "test_solver_contact.py -k sliding_block",
     ),
     Mutation(
@@ -452,7 +398,6 @@ MUTATIONS = (
         CELL,
         "k.grip = a_[c];",
         "k.grip = sqr(a_[c]);",
-        COUPLED,
         "test_physics_contact.py -k slidingBlock",
     ),
     Mutation(
@@ -460,7 +405,6 @@ MUTATIONS = (
         SPACE,
         "if (isA<wallPolyPatch>(bm[patchi]))",
         "if (true)",
-        COUPLED,
         "test_physics_contact.py -k separation",
     ),
     Mutation(
@@ -468,15 +412,13 @@ MUTATIONS = (
         SPACE,
         'foundObject<labelIOList>("closedPoints")',
         'foundObject<labelIOList>("none")',
-        COUPLED,
         "test_gastric.py -k closed_pylorus",
     ),
     Mutation(
         "pressures wrongly condensed",
-        "src/coupled/condensedTangent/condensedTangent.C",
+        "src/linear/condensedTangent/condensedTangent.C",
         "- b * C_[start + j]",
         "- 0.5 * b * C_[start + j]",
-        COUPLED,
         "test_solver.py -k tangent_equals",
     ),
     Mutation(
@@ -484,7 +426,6 @@ MUTATIONS = (
         MEMORY,
         "cells[own[f]] -= amount[f] * dt;",
         "cells[own[f]] -= 1.001 * amount[f] * dt;",
-        COUPLED,
         "test_solver.py -k mass_stays",
     ),
     Mutation(
@@ -493,7 +434,6 @@ MUTATIONS = (
         "    for (const label f : z.given) add(f);\n}\n\n\n"
         "void Foam::historyTransport::faceValues",
         "}\n\n\nvoid Foam::historyTransport::faceValues",
-        COUPLED,
         "test_transport.py -k mass_is_kept",
     ),
     Mutation(
@@ -501,7 +441,6 @@ MUTATIONS = (
         FLUX,
         "given[D] += mag(F_[f]) * left * dt;",
         "given[D] += 0;",
-        COUPLED,
         "test_cases.py -k balanced",
     ),
     Mutation(
@@ -509,7 +448,6 @@ MUTATIONS = (
         FLUX,
         "    takeWhatIsThere(z, dt, left);",
         "",
-        COUPLED,
         "test_transport.py -k traces",
     ),
     Mutation(
@@ -518,7 +456,6 @@ MUTATIONS = (
         "            memoryF_[f * n + k] = qD[k];\n"
         "            mean_[f * n + k] += qD[k] / fine;",
         "            mean_[f * n + k] += memoryF_[f * n + k] / fine;",
-        COUPLED,
         "test_cases.py -k less_plastic",
     ),
     Mutation(
@@ -526,15 +463,13 @@ MUTATIONS = (
         "src/coupled/coupledSystem/coupledSystemSolve.C",
         "mayLeap_ = fullSteps_ > 0;",
         "mayLeap_ = false;",
-        COUPLED,
         "test_cases.py -k full_steps",
     ),
     Mutation(
         "all cells take the short sub-steps",
-        "src/coupled/historyTransport/historyTransportZones.C",
+        "src/transport/historyTransport/historyTransportZones.C",
         "if (work < least)",
         "if (work < 0 * least)",
-        COUPLED,
         "test_transport.py -k fast_cells",
     ),
     Mutation(
@@ -542,15 +477,13 @@ MUTATIONS = (
         POINT,
         "if (!elastic_.logarithmic())",
         "if (true)",
-        COUPLED,
         "test_cases.py -k logarithmic",
     ),
     Mutation(
         "processors never ask each other about fast cells",
-        "src/coupled/historyTransport/historyTransportZones.C",
+        "src/transport/historyTransport/historyTransportZones.C",
         "fast.shared = parts_",
         "fast.shared = false && parts_",
-        COUPLED,
         "test_transport.py -k two_ranks",
     ),
     Mutation(
@@ -558,7 +491,6 @@ MUTATIONS = (
         MEMORY,
         "            qF[k] = qD[k];\n\n",
         "            qF[k] = forward ? qN[k] : qP[k];\n\n",
-        COUPLED,
         "test_physics.py -k rotation",
     ),
     Mutation(
@@ -566,7 +498,6 @@ MUTATIONS = (
         TRANSPORT,
         "cells[coupledCells_[i] * width + k]",
         "cells[coupledCells_[0] * width + k]",
-        COUPLED,
         "test_transport.py -k two_ranks",
     ),
     Mutation(
@@ -574,7 +505,6 @@ MUTATIONS = (
         TRANSPORT,
         "memory_[c * n_ + k] = q[c];",
         "memory_[c * n_ + k] = all[0][c];",
-        COUPLED,
         "test_transport.py -k piston",
     ),
     Mutation(
@@ -582,7 +512,6 @@ MUTATIONS = (
         "src/motility/antralWaves/antralWaves.C",
         "std::pow(1 - sqr(s), exponent_)",
         "std::pow(1 - sqr(s), exponent_ + 1)",
-        ("src/motility",),
         "test_motility.py",
     ),
     Mutation(
@@ -590,7 +519,6 @@ MUTATIONS = (
         "src/motility/lumenMotion/lumenMotion.H",
         "wall_.radius(x, referenceTime_) - 1)",
         "wall_.radius(x, referenceTime_) - 1 + 1e-6)",
-        ("src/motility",),
         "test_motility.py",
     ),
     Mutation(
@@ -598,7 +526,6 @@ MUTATIONS = (
         ENERGY,
         "rate * r.r.q * r.r.dEpsP;",
         "1.05 * rate * r.r.q * r.r.dEpsP;",
-        COUPLED,
         "test_energy.py -k dissipates_stress",
     ),
     Mutation(
@@ -606,7 +533,6 @@ MUTATIONS = (
         ENERGY,
         "area * factor * (k.slip & k.step)",
         "1.05 * area * factor * (k.slip & k.step)",
-        COUPLED,
         "test_energy.py -k friction_takes",
     ),
     Mutation(
@@ -614,7 +540,6 @@ MUTATIONS = (
         "src/functionObjects/externalWork/externalWork.C",
         "work_ += power() *",
         "work_ += 0.5 * power() *",
-        ("src/functionObjects",),
         "test_function_objects.py",
     ),
     Mutation(
@@ -622,7 +547,6 @@ MUTATIONS = (
         "src/functionObjects/contactForce/contactForce.C",
         "normal += Fn;",
         "normal += mag(F[i]);",
-        ("src/functionObjects",),
         "test_function_objects.py",
     ),
 )
@@ -654,10 +578,26 @@ def build(folder: str) -> None:
         sys.exit(f"mutations: {folder} does not build\n{done.stderr[-2000:]}")
 
 
-def write(path: Path, text: str, folders) -> None:
+def folders(file: str) -> list[str]:
+    """Those to build when a file changes: its own and, for a header, those
+    that may include it."""
+    own = next(p for p in Path(file).parents if (TREE / p / "Make").is_dir())
+    found = [str(own)]
+    if file.endswith(".H"):
+        headers = f"{own.name}/lnInclude"
+        found += [
+            str(options.parents[1].relative_to(TREE))
+            for where in ("src/*", "applications/*/*")
+            for options in sorted(TREE.glob(f"{where}/Make/options"))
+            if headers in options.read_text()
+        ]
+    return found
+
+
+def write(file: str, text: str) -> None:
     """Change a file of the copy and build what depends on it."""
-    path.write_text(text)
-    for folder in folders:
+    (TREE / file).write_text(text)
+    for folder in folders(file):
         build(folder)
 
 
@@ -714,8 +654,7 @@ def mutate(names) -> int:
     fresh_copy()
     passed: set[str] = set()
     for number, m in enumerate(chosen, 1):
-        path = TREE / m.file
-        sound = path.read_text()
+        sound = (TREE / m.file).read_text()
         if sound.count(m.old) != 1:
             sys.exit(
                 f"mutations: {m.name}: {m.file} holds {m.old!r} "
@@ -730,9 +669,9 @@ def mutate(names) -> int:
             if m.test not in passed and failing(m.test):
                 sys.exit(f"mutations: {m.test} fails without {m.name} as well")
             passed.add(m.test)
-            write(path, sound.replace(m.old, m.new), m.build)
+            write(m.file, sound.replace(m.old, m.new))
             caught = failing(m.test)
-            write(path, sound, m.build)
+            write(m.file, sound)
             seen[m.name] = {"key": key, "caught": caught, "test": m.test}
             store.write_text(json.dumps(seen, indent=1))
         verdict = "caught" if seen[m.name]["caught"] else "NOT CAUGHT"
