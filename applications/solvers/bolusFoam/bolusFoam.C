@@ -35,7 +35,7 @@ Usage
 #include "runLock.H"
 #include "signalReport.H"
 #include "stepControl.H"
-#include "voidLaw.H"
+#include "surroundingPhase.H"
 #include "writtenTime.H"
 
 using namespace Foam;
@@ -139,7 +139,9 @@ int main(int argc, char* argv[])
     ));
     const elastoViscoPlastic law(properties);
     const caseScales scales(runTime.controlDict(), law);
-    const voidLaw voids(properties.subOrEmptyDict("void"), scales);
+    autoPtr<surroundingPhase> medium(
+        surroundingPhase::New(properties, scales)
+    );
     const dictionary& solver = mesh.solutionDict().subOrEmptyDict("bolus");
 
     autoPtr<bolusFields> fieldsPtr;
@@ -149,7 +151,9 @@ int main(int argc, char* argv[])
         fieldsPtr.reset(new bolusFields(mesh, law));
     }
     bolusFields& fields = fieldsPtr();
-    coupledSystem system(law, voids, fields.state, scales, solver);
+    coupledSystem system(
+        law, medium.ref(), fields.state, scales, properties, solver
+    );
     historyTransport transport(
         fields.state,
         law.elastic().K(),
@@ -251,7 +255,12 @@ int main(int argc, char* argv[])
         energy.step(system, runTime.deltaTValue());
 
         control.done(solved.iterations, moved.bulkCourant);
-        report.step(solved, moved, system.bolusRate(), system.flowRate());
+        report.step(
+            solved,
+            moved,
+            system.accepted().bolusRate,
+            system.accepted().flowRate
+        );
 
         if (control.write())
         {

@@ -117,7 +117,8 @@ const Foam::wordList& Foam::energyBooks::parts()
 
 void Foam::energyBooks::step(const coupledSystem& system, const scalar deltaT)
 {
-    const stepPower& P = system.power();
+    const coupledSystem::solution& now = system.accepted();
+    const powerLedger& P = now.power;
 
     // What bolus that left took along, as it was before the transport
     scalar out = 0;
@@ -125,7 +126,7 @@ void Foam::energyBooks::step(const coupledSystem& system, const scalar deltaT)
     {
         if (F.coupled()) continue;
         const labelUList& cells = F.patch().faceCells();
-        forAll(F, i) out += F[i] * system.elasticEnergy()[cells[i]];
+        forAll(F, i) out += F[i] * now.elasticEnergy[cells[i]];
     }
 
     const word names[] = {
@@ -144,20 +145,20 @@ void Foam::energyBooks::step(const coupledSystem& system, const scalar deltaT)
         "outflow"
     };
     scalarField sums(
-        {P.walls,
-            P.closure,
-            P.elastic,
-            P.plastic,
-            P.relaxation,
-            P.fracture,
-            P.voids,
-            P.debris,
-            P.hourglass,
-            P.overfill,
-            P.friction,
-            P.inertia,
+        {P["walls"],
+            P["closure"],
+            P["elastic"],
+            P["plastic"],
+            P["relaxation"],
+            P["fracture"],
+            P["void"],
+            P["debris"],
+            P["hourglass"],
+            P["overfill"],
+            P["friction"],
+            P["inertia"],
             out,
-            P.slipEnergy / deltaT}
+            now.slipEnergy / deltaT}
     );
     reduce(sums, sumOp<scalarField>());
     for (scalar& sum : sums) sum *= deltaT;
