@@ -139,9 +139,7 @@ int main(int argc, char* argv[])
     ));
     const elastoViscoPlastic law(properties);
     const caseScales scales(runTime.controlDict(), law);
-    autoPtr<surroundingPhase> medium(
-        surroundingPhase::New(properties, scales)
-    );
+    autoPtr<surroundingPhase> medium(surroundingPhase::New(properties, scales));
     const dictionary& solver = mesh.solutionDict().subOrEmptyDict("bolus");
 
     autoPtr<bolusFields> fieldsPtr;

@@ -200,6 +200,19 @@ void Foam::wallFriction::add(
 }
 
 
+void Foam::wallFriction::forget(const label c)
+{
+    forAll(faces_[c], fi)
+    {
+        const label patchi = patches_[c][fi];
+        state_.elasticSlip.boundaryFieldRef()
+            [patchi]
+            [faces_[c][fi] - space_.mesh().boundaryMesh()[patchi].start()] =
+            Zero;
+    }
+}
+
+
 void Foam::wallFriction::accept(
     const label c,
     const bolus& b,

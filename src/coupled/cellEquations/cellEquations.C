@@ -43,16 +43,19 @@ void Foam::cellEquations::start(const scalar deltaT)
 
     const label nCells = space_.mesh().nCells();
     scalarField rho(nCells);
-    scalarField rhoBolus(nCells);
     scalarField stiffness(nCells);
     forAll(rho, c)
     {
         rho[c] = mixture_.rho(c);
-        rhoBolus[c] = mixture_.rhoBolus(c);
         stiffness[c] = mixture_.stiffness(c);
     }
     const cellForce::stepStart now = {
-        deltaT, rho, rhoBolus, stiffness, state_.U.primitiveField()
+        deltaT,
+        rho,
+        mixture_.rhoBolus(),
+        state_.mass.primitiveField(),
+        stiffness,
+        state_.U.primitiveField()
     };
     for (cellForce& force : forces_) force.start(now);
 }

@@ -93,6 +93,7 @@ void Foam::coupledSystem::accept(
             r.P = 0;
             r.dev = Zero;
             solution_.elasticEnergy[c] = 0;
+            cells_.friction().forget(c);
             acceptCell(c, r, v);
             continue;
         }

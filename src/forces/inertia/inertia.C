@@ -31,11 +31,11 @@ void Foam::inertia::start(const stepStart& now)
 {
     if (densityScale_ == 0) return;
     UOld_ = now.U;
-    pointMass_.setSize(now.rhoBolus.size());
+    pointMass_.setSize(now.mass.size());
     forAll(pointMass_, c)
     {
-        pointMass_[c] = densityScale_ * now.rhoBolus[c] * space_.V()[c]
-            / space_.mesh().cellPoints()[c].size() / now.deltaT;
+        pointMass_[c] = densityScale_ * now.rhoBolus * now.mass[c]
+            * space_.V()[c] / space_.mesh().cellPoints()[c].size() / now.deltaT;
     }
 }
 

@@ -257,15 +257,9 @@ Foam::scalar Foam::laminate::stiffness(const label c) const
 }
 
 
-Foam::scalar Foam::laminate::rhoBolus(const label c) const
-{
-    return law_.rho() * state_.mass[c];
-}
-
-
 Foam::scalar Foam::laminate::rho(const label c) const
 {
-    return rhoBolus(c)
+    return rhoBolus() * state_.mass[c]
         + (medium_.rho() > 0
                 ? medium_.rho() * max(1 - state_.alpha[c], scalar(0))
                 : 0);
