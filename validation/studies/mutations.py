@@ -31,9 +31,10 @@ SOLVE = "src/coupled/coupledSystem/coupledSystemSolve.C"
 TANGENT = "src/linear/condensedTangent/condensedTangent.C"
 ENERGY = "src/coupled/coupledSystem/coupledSystemEnergy.C"
 SPACE = "src/space/nodalSpace/nodalSpace.C"
-MEMORY = "src/transport/historyTransport/historyTransportMemory.C"
-FLUX = "src/transport/historyTransport/historyTransportFlux.C"
-TRANSPORT = "src/transport/historyTransport/historyTransport.C"
+HISTORY = "src/transport/historyFlux/historyFlux.C"
+FLUX = "src/transport/bolusFlux/bolusFlux.C"
+SUBSTEPS = "src/transport/subSteps/subSteps.C"
+PACKED = "src/transport/packedHistory/packedHistory.C"
 POINT = "src/rheology/elastoViscoPlastic/elastoViscoPlasticI.H"
 
 
@@ -108,9 +109,9 @@ MUTATIONS = (
     ),
     Mutation(
         "no look at what is no number",
-        "applications/solvers/bolusFoam/bolusFields.C",
-        "forState(requireNumbers());",
-        "",
+        "src/history/historyVariable/historyField.H",
+        "{\n        requireNumbers();\n    }",
+        "{}",
         "test_runs.py -k no_number",
     ),
     Mutation(
@@ -164,7 +165,7 @@ MUTATIONS = (
     ),
     Mutation(
         "bolus on the wrong side of the interface in transport",
-        "src/interface/planarInterface/planarInterface.H",
+        "src/interface/planarInterface/planarInterface.C",
         "along > 0 ? d",
         "along < 0 ? d",
         "test_physics.py -k rotation",
@@ -367,7 +368,7 @@ MUTATIONS = (
     ),
     Mutation(
         "a flow too fast is moved as far as it goes",
-        TRANSPORT,
+        "src/transport/historyTransport/historyTransport.C",
         "if (result.tooFast) return result;",
         "result.tooFast = false;",
         "test_solver_input.py -k too_fast",
@@ -423,39 +424,38 @@ MUTATIONS = (
     ),
     Mutation(
         "transport loses a thousandth of what leaves a cell",
-        MEMORY,
-        "cells[own[f]] -= amount[f] * dt;",
-        "cells[own[f]] -= 1.001 * amount[f] * dt;",
+        HISTORY,
+        "massNew_[own[f]] -= F[f] * dt;",
+        "massNew_[own[f]] -= 1.001 * F[f] * dt;",
         "test_solver.py -k mass_stays",
     ),
     Mutation(
         "short sub-steps forget what slow cells give the fast ones",
-        MEMORY,
-        "    for (const label f : z.given) add(f);\n}\n\n\n"
-        "void Foam::historyTransport::faceValues",
-        "}\n\n\nvoid Foam::historyTransport::faceValues",
+        HISTORY,
+        "    for (const label f : z.given) add(f);",
+        "",
         "test_transport.py -k mass_is_kept",
     ),
     Mutation(
         "fast cells leave nothing for what slow ones were to get",
         FLUX,
-        "given[D] += mag(F_[f]) * left * dt;",
-        "given[D] += 0;",
+        "given_[D] += mag(F_[f]) * left * dt;",
+        "given_[D] += 0;",
         "test_cases.py -k balanced",
     ),
     Mutation(
         "cells give more than they have",
         FLUX,
-        "    takeWhatIsThere(z, dt, left);",
+        "    takeWhatIsThere(z, alpha, dt, left);",
         "",
         "test_transport.py -k traces",
     ),
     Mutation(
         "what leads out of fast cells has the memory of the start",
-        MEMORY,
-        "            memoryF_[f * n + k] = qD[k];\n"
+        HISTORY,
+        "            faces_[f * n + k] = qD[k];\n"
         "            mean_[f * n + k] += qD[k] / fine;",
-        "            mean_[f * n + k] += memoryF_[f * n + k] / fine;",
+        "            mean_[f * n + k] += faces_[f * n + k] / fine;",
         "test_cases.py -k less_plastic",
     ),
     Mutation(
@@ -467,7 +467,7 @@ MUTATIONS = (
     ),
     Mutation(
         "all cells take the short sub-steps",
-        "src/transport/historyTransport/historyTransportZones.C",
+        SUBSTEPS,
         "if (work < least)",
         "if (work < 0 * least)",
         "test_transport.py -k fast_cells",
@@ -481,31 +481,62 @@ MUTATIONS = (
     ),
     Mutation(
         "processors never ask each other about fast cells",
-        "src/transport/historyTransport/historyTransportZones.C",
-        "fast.shared = parts_",
-        "fast.shared = false && parts_",
+        SUBSTEPS,
+        "fast.shared = exchange_.parts()",
+        "fast.shared = false && exchange_.parts()",
         "test_transport.py -k two_ranks",
     ),
     Mutation(
         "memory is carried by the receiving cell's value",
-        MEMORY,
+        HISTORY,
         "            qF[k] = qD[k];\n\n",
         "            qF[k] = forward ? qN[k] : qP[k];\n\n",
         "test_physics.py -k rotation",
     ),
     Mutation(
         "processors tell each other the memory of one cell only",
-        TRANSPORT,
-        "cells[coupledCells_[i] * width + k]",
-        "cells[coupledCells_[0] * width + k]",
+        "src/transport/cellExchange/cellExchange.C",
+        "values[cells_[i] * width + k]",
+        "values[cells_[0] * width + k]",
         "test_transport.py -k two_ranks",
     ),
     Mutation(
         "all memories of a cell are its pressure",
-        TRANSPORT,
-        "memory_[c * n_ + k] = q[c];",
-        "memory_[c * n_ + k] = all[0][c];",
+        PACKED,
+        "values_[c * n + k] = q[c];",
+        "values_[c * n + k] = all_[0][c];",
         "test_transport.py -k piston",
+    ),
+    Mutation(
+        "a step that is done again keeps the fields that it carried",
+        "src/history/historyVariables/historyVariables.C",
+        "for (historyVariable& v : variables_) v.restore();",
+        "for (historyVariable& v : variables_)\n"
+        "    {\n"
+        "        if (v.how() != historyVariable::CARRIED) v.restore();\n"
+        "    }",
+        "test_adding_a_field.py -k done_again",
+    ),
+    Mutation(
+        "fields of the case stand in the mesh",
+        "src/history/carriedField/carriedField.C",
+        "historyVariable::CARRIED",
+        "historyVariable::STANDS",
+        "test_adding_a_field.py -k as_far_as_the_piston",
+    ),
+    Mutation(
+        "fields of the case never change of themselves",
+        "src/history/carriedFields/carriedFields.C",
+        "f.evolve(deltaT);",
+        "f.evolve(0);",
+        "test_adding_a_field.py -k mean_age",
+    ),
+    Mutation(
+        "the pressure is not the first of the memories",
+        PACKED,
+        "    Swap(used_.first(), used_.last());\n",
+        "",
+        "test_transport.py -k mass_is_kept",
     ),
     Mutation(
         "waves with exponent 6 for 5",

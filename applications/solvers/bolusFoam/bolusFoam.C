@@ -28,6 +28,7 @@ Usage
 #include "dynamicFvMesh.H"
 #include "profiling.H"
 #include "bolusFields.H"
+#include "carriedFields.H"
 #include "energyBooks.H"
 #include "historyTransport.H"
 #include "meshCheck.H"
@@ -149,14 +150,14 @@ int main(int argc, char* argv[])
         fieldsPtr.reset(new bolusFields(mesh, law));
     }
     bolusFields& fields = fieldsPtr();
-    coupledSystem system(
-        law, medium.ref(), fields.state, scales, properties, solver
-    );
+    carriedFields carried(properties, fields);
+    coupledSystem system(law, medium.ref(), fields, scales, properties, solver);
+    // The bolus takes its momentum along
+    if (system.inertia() > 0) fields.history["U"].carry();
     historyTransport transport(
-        fields.state,
+        fields,
         law.elastic().K(),
         system.space().axes(),
-        system.inertia() > 0,
         mesh.solutionDict().subOrEmptyDict("transport")
     );
     stepControl control(runTime);
@@ -176,7 +177,7 @@ int main(int argc, char* argv[])
         }
         if (written.complete()) signals.written(written.name());
         tellWhatCountsLater(mesh, numerics);
-        fields.store();
+        fields.history.store();
         signals.step();
         control.start();
 
@@ -216,7 +217,7 @@ int main(int argc, char* argv[])
                 // A piece that nothing holds was shot off; bolus burst
                 if (moved.tooFast || !(moved.alphaMax < transport.burst()))
                 {
-                    fields.restore();
+                    fields.history.restore();
                     solved.converged = false;
                     solved.reason = moved.tooFast
                         ? "flow too fast for maxSubSteps"
@@ -243,11 +244,12 @@ int main(int argc, char* argv[])
                 || overfull == 2 || !control.retry();
             if (!done)
             {
-                fields.restore();
+                fields.history.restore();
                 ++overfull;
             }
         }
 
+        carried.evolve(runTime.deltaTValue());
         fields.damage(system.damageAbove());
         fields.derive();
         energy.step(system, runTime.deltaTValue());
