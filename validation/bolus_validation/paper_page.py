@@ -5,24 +5,21 @@
 from itertools import combinations
 from pathlib import Path
 
-import matplotlib
+import matplotlib.pyplot as plt
+import numpy as np
+from bolus_results.foam_files import FoamFileError
+from scipy.interpolate import PchipInterpolator
 
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402
-import numpy as np  # noqa: E402
-from scipy.interpolate import PchipInterpolator  # noqa: E402
-
-from bolus_validation import paper_score, paper_sets  # noqa: E402
-from bolus_validation.foam_files import FoamFileError  # noqa: E402
-from bolus_validation.paper_search import (  # noqa: E402
+from bolus_validation import paper_score, paper_sets
+from bolus_validation.paper import CASE_A
+from bolus_validation.paper_search import (
     CHANCE,
     COARSE,
     FINE,
     Records,
     score,
 )
-from bolus_validation.report import CASE_A  # noqa: E402
-from bolus_validation.studies import ROOT  # noqa: E402
+from bolus_validation.studies import ROOT
 
 BEGIN = "<!-- search: begin, made by ./Allrun validate paper --page -->"
 END = "<!-- search: end -->"

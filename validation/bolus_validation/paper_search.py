@@ -27,11 +27,12 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import optuna
+from bolus_results.results import write_json
 from optuna.distributions import CategoricalDistribution, FloatDistribution
 from optuna.trial import TrialState, create_trial
 
-from bolus_validation import paper_score, paper_sets, results
-from bolus_validation.report import Run
+from bolus_validation import paper_score, paper_sets
+from bolus_validation.paper import MEASURE, Run
 from bolus_validation.studies import (
     ROOT,
     _end_with_parent,
@@ -136,7 +137,7 @@ def run(base: Path, job: Job, sources: str, keep: bool = False) -> dict:
     gave_up = log.exists() and "no convergence at" in log.read_text()
     if done.returncode and not gave_up:
         raise RuntimeError(done.stdout[-2000:] + done.stderr)
-    results.write_json(folder)
+    write_json(folder, MEASURE)
     of = Run(folder)
     record = {
         "key": key,

@@ -31,8 +31,7 @@ from dataclasses import asdict, dataclass, field
 from pathlib import Path
 
 import numpy as np
-
-from bolus_validation.locking import FolderBusy, alone_in, locked
+from bolus_results.locking import FolderBusy, alone_in, locked
 
 ROOT = Path(__file__).parents[2]
 
@@ -193,8 +192,8 @@ def _hash(files) -> str:
 SOLVER = ("src", "applications", "tutorials/common")
 SET_UP = {
     "cutting": (
-        "validation/bolus_validation/cutting.py",
-        "validation/bolus_validation/tool_surface.py",
+        "validation/bolus_cases/cutting.py",
+        "validation/bolus_cases/tool_surface.py",
     )
 }
 FAMILIES = ("cutting", "gastric", "rheology")
@@ -318,8 +317,11 @@ def _key(one: Study) -> str:
     base = ROOT / "validation"
     own = _hash(
         [
-            *sorted((base / "bolus_validation").glob("*.py")),
-            base / "bolus_validation" / "physics" / "cases.py",
+            *(
+                path
+                for package in ("results", "cases", "validation")
+                for path in sorted((base / f"bolus_{package}").glob("*.py"))
+            ),
             base / (one.module.replace(".", "/") + ".py"),
         ]
     )

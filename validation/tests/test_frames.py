@@ -6,10 +6,10 @@ import shutil
 
 import numpy as np
 import pytest
-from bolus_validation import plots, results
-from bolus_validation.fields import Case
-from bolus_validation.foam_files import FoamFileError
-from bolus_validation.synthetic import plane_mesh, wedge_mesh, write_file
+from bolus_cases.synthetic import plane_mesh, wedge_mesh, write_file
+from bolus_results import plots, results
+from bolus_results.fields import Case
+from bolus_results.foam_files import FoamFileError
 from matplotlib import image
 from scipy.spatial.transform import Rotation
 from test_results import broken_bolus

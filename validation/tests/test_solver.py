@@ -11,11 +11,7 @@ import shutil
 
 import numpy as np
 import pytest
-from bolus_validation import rheology
-from bolus_validation.fields import Case
-from bolus_validation.physics import objectivity
-from bolus_validation.results import read_table
-from bolus_validation.specimens import (
+from bolus_cases.specimens import (
     HEIGHT,
     SLIDING,
     box,
@@ -27,7 +23,11 @@ from bolus_validation.specimens import (
     solve,
     solve_in_two,
 )
-from bolus_validation.synthetic import run
+from bolus_cases.synthetic import run
+from bolus_results.fields import Case
+from bolus_results.tables import read_table
+from bolus_validation import rheology
+from bolus_validation.physics import objectivity
 
 RATES = [0.01, 0.1, 1.0]
 

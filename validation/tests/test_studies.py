@@ -18,7 +18,7 @@ from bolus_validation import studies
         ("tutorials/common/bolus", True, True),
         ("tutorials/cutting/wire2D/system/fvSolution", True, False),
         ("tutorials/gastric/caseA/system/fvSolution", False, True),
-        ("validation/bolus_validation/cutting.py", True, False),
+        ("validation/bolus_cases/cutting.py", True, False),
         ("tutorials/gastric/caseA/README.md", False, False),
     ],
 )

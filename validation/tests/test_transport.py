@@ -9,9 +9,7 @@ long as the others, so that only they are fast.
 
 import numpy as np
 import pytest
-from bolus_validation.fields import Case
-from bolus_validation.results import read_table
-from bolus_validation.specimens import (
+from bolus_cases.specimens import (
     GRIPPING,
     SLIDING,
     box,
@@ -20,7 +18,9 @@ from bolus_validation.specimens import (
     solve,
     solve_in_two,
 )
-from bolus_validation.synthetic import run, write_field
+from bolus_cases.synthetic import run, write_field
+from bolus_results.fields import Case
+from bolus_results.tables import read_table
 
 LENGTH, HEIGHT = 0.030, 0.005  # of the channel [m]
 BAR = (0.008, 0.0025)  # [m]

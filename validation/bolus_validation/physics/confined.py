@@ -6,17 +6,8 @@ import re
 import shutil
 from pathlib import Path
 
-import matplotlib
-
-matplotlib.use("Agg")
-
-import numpy as np  # noqa: E402
-from matplotlib import pyplot as plt  # noqa: E402
-from matplotlib.collections import PolyCollection  # noqa: E402
-
-from bolus_validation.fields import Case  # noqa: E402
-from bolus_validation.results import read_table  # noqa: E402
-from bolus_validation.specimens import (  # noqa: E402
+import numpy as np
+from bolus_cases.specimens import (
     ROOT,
     SLIDING,
     box,
@@ -24,16 +15,21 @@ from bolus_validation.specimens import (  # noqa: E402
     rub,
     solve,
 )
-from bolus_validation.studies import Findings, study  # noqa: E402
-from bolus_validation.synthetic import (  # noqa: E402
+from bolus_cases.synthetic import (
     run as execute,
 )
-from bolus_validation.synthetic import (
+from bolus_cases.synthetic import (
     write_blocks,
     write_field,
     write_file,
     write_motion_fields,
 )
+from bolus_results.fields import Case
+from bolus_results.tables import read_table
+from matplotlib import pyplot as plt
+from matplotlib.collections import PolyCollection
+
+from bolus_validation.studies import Findings, study
 
 # Converging tube: lengths of container, cone and land [m], radii [m], half
 # angle of the cone [rad], way and speed of the piston [m, m/s]

@@ -4,22 +4,8 @@
 
 from pathlib import Path
 
-import matplotlib
-
-matplotlib.use("Agg")
-
-import numpy as np  # noqa: E402
-from matplotlib import pyplot as plt  # noqa: E402
-
-from bolus_validation.fields import Case  # noqa: E402
-from bolus_validation.physics.fracture import (  # noqa: E402
-    first,
-    monitor_damage,
-    paint,
-    write_each,
-)
-from bolus_validation.results import read_table  # noqa: E402
-from bolus_validation.specimens import (  # noqa: E402
+import numpy as np
+from bolus_cases.specimens import (
     GRIPPING,
     SLIDING,
     box,
@@ -27,12 +13,22 @@ from bolus_validation.specimens import (  # noqa: E402
     replace,
     solve,
 )
-from bolus_validation.studies import Findings, study  # noqa: E402
-from bolus_validation.synthetic import (
+from bolus_cases.synthetic import (
     write_blocks,
     write_field,
     write_motion_fields,
 )
+from bolus_results.fields import Case
+from bolus_results.tables import read_table
+from matplotlib import pyplot as plt
+
+from bolus_validation.physics.fracture import (
+    first,
+    monitor_damage,
+    paint,
+    write_each,
+)
+from bolus_validation.studies import Findings, study
 
 
 def fill(case: Path, inside) -> None:

@@ -2,7 +2,7 @@
 # Copyright (C) 2026 the bolusFoam developers
 """One page about one or several runs, side by side: ./Allrun report.
 
-    python -m bolus_validation.page CASE [CASE ...] [-out DIR]
+    python -m bolus_results.page CASE [CASE ...] [-out DIR]
 
 writes DIR (default CASE/report, of the first) with page.html and its pictures;
 the page holds them itself, so that it can be sent alone. It tells what was
@@ -28,21 +28,17 @@ from matplotlib.animation import FuncAnimation, PillowWriter
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize
 
-from bolus_validation import plots
-from bolus_validation.fields import Case
-from bolus_validation.foam_files import (
+from bolus_results import curves, plots
+from bolus_results.fields import Case
+from bolus_results.foam_files import (
     FoamFileError,
     entries,
     foam_dictionary,
     messages,
 )
-from bolus_validation.locking import alone_in
-from bolus_validation.results import (
-    PAPER_TIMES,
-    TIME_TOLERANCE,
-    collect,
-    optional_table,
-)
+from bolus_results.locking import alone_in
+from bolus_results.results import collect, measure_of, spread
+from bolus_results.tables import optional_table
 
 INPUTS = (
     "constant/bolusProperties",
@@ -171,25 +167,13 @@ def check(path: Path) -> None:
 def show(path: Path) -> Shown:
     """All that the page tells of a case, but for its pictures."""
     check(path)
-    results = collect(path)
+    results = collect(path, measure_of(path))
     inputs, warnings = read_inputs(path)
     warnings += warn(path, results, inputs)
     return Shown(path.resolve().name, path, results, inputs, warnings)
 
 
 # --- pictures -----------------------------
-
-
-def contour_times(case: Case) -> list[float]:
-    """The paper's times if half of them were written, else ten of the run."""
-    paper = [
-        t for t in PAPER_TIMES if case.nearest(t, TIME_TOLERANCE) is not None
-    ]
-    if len(paper) >= len(PAPER_TIMES) / 2:
-        return paper
-    times = [t for t in case.times if case.has(t, "alpha")]
-    picks = np.linspace(0, len(times) - 1, min(10, len(times)))
-    return [times[i] for i in np.unique(picks.round().astype(int))]
 
 
 def movie(case: Case, target: Path) -> bool:
@@ -199,8 +183,7 @@ def movie(case: Case, target: Path) -> bool:
     ]
     if len(times) < 2:
         return False
-    picks = np.linspace(0, len(times) - 1, min(FRAMES, len(times)))
-    times = [times[i] for i in np.unique(picks.round().astype(int))]
+    times = spread(times, FRAMES)
     highest = max(
         float(np.percentile(1e-3 * case.field(t, "sigmaEq"), 99)) for t in times
     )
@@ -253,7 +236,7 @@ def tool_curves(shown: list[Shown], target: Path) -> bool:
 def draw_all(shown: list[Shown], folder: Path):
     """Pictures: [(caption, path)] of all cases, and of each case."""
     common = []
-    if plots.curves([one.path for one in shown], folder / "curves.png"):
+    if curves.curves([one.path for one in shown], folder / "curves.png"):
         common.append(("Force, work, retained bolus", folder / "curves.png"))
     if tool_curves(shown, folder / "tool.png"):
         common.append(("The tool", folder / "tool.png"))
@@ -262,7 +245,7 @@ def draw_all(shown: list[Shown], folder: Path):
         case = Case(one.path)
         mine, target = [], folder / f"case{i}"
         target.mkdir(exist_ok=True)
-        made = plots.draw([one.path], contour_times(case), target)
+        made = plots.draw([one.path], measure_of(one.path).times, target)
         for path in made:
             if path.name != "curves.png":
                 mine.append((path.stem, path))

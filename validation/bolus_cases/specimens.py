@@ -10,10 +10,7 @@ import shutil
 from pathlib import Path
 
 import numpy as np
-
-from bolus_validation.fields import Mesh, read_mesh
-from bolus_validation.results import read_table
-from bolus_validation.synthetic import (
+from bolus_cases.synthetic import (
     run,
     write_control,
     write_field,
@@ -21,6 +18,8 @@ from bolus_validation.synthetic import (
     write_laplacian_motion,
     write_motion_fields,
 )
+from bolus_results.fields import Mesh, read_mesh
+from bolus_results.tables import read_table
 
 ROOT = Path(__file__).parents[2]
 COMMON = ROOT / "tutorials" / "common"

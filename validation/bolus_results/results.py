@@ -2,7 +2,8 @@
 # Copyright (C) 2026 the bolusFoam developers
 """The results of a run: tables of the function objects, and results.json.
 
-    python -m bolus_validation.results CASE [--reference 7.5]
+    python -m bolus_results.results CASE [--times T ...] [--reference T]
+                                         [--loaded PA]
 
 writes results.json into the case: every number as {"value", "unit"}, peaks
 with their "time" [s]. What was not computed or written is left out; nothing
@@ -13,18 +14,16 @@ import argparse
 import json
 import re
 import sys
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from pathlib import Path
 
 import numpy as np
 
-from bolus_validation.fields import Case
-from bolus_validation.foam_files import FoamFileError, read_text, stored
-from bolus_validation.locking import alone_in
-from bolus_validation.profiling import phases
-
-# The ten times [s] of the paper's Fig. 8
-PAPER_TIMES = (7.5, 9.0, 10.5, 12.5, 14.0, 18.0, 23.0, 25.5, 29.0, 32.0)
+from bolus_results.fields import Case
+from bolus_results.foam_files import FoamFileError, read_text, stored
+from bolus_results.locking import alone_in
+from bolus_results.profiling import phases
+from bolus_results.tables import Table, optional_table, read_starts
 
 # A written field stands for a time if it is this near [s]: a wave moves by
 # 0.1 mm in it
@@ -34,106 +33,44 @@ TIME_TOLERANCE = 0.04
 # fragment: a few cells of a coarse mesh
 CRUMB = 0.01
 
-# Bolus carrying less equivalent stress than this [Pa] counts as unloaded: a
-# tenth of the static yield stress. Its triaxiality is a ratio of small numbers
-LOADED = 410.0
 
+@dataclass(frozen=True)
+class Measure:
+    """At what a run is looked.
 
-@dataclass
-class Table:
-    """Columns (n,) and their units, by name. Time comes first, ascending."""
-
-    columns: dict[str, np.ndarray]
-    units: dict[str, str]
-
-    def __getitem__(self, name: str) -> np.ndarray:
-        return self.columns[name]
-
-    @property
-    def time(self) -> np.ndarray:
-        """(n,) [s]."""
-        return next(iter(self.columns.values()))
-
-    def at(self, name: str, time: float) -> float | None:
-        """A column at a time [s], linear between rows; None outside."""
-        # The last step may end this little before a written time
-        slack = 1e-7 * np.abs(self.time).max()
-        if not self.time[0] - slack <= time <= self.time[-1] + slack:
-            return None
-        return float(np.interp(time, self.time, self[name]))
-
-
-def _read_one(path: Path) -> Table | None:
-    """A table of one start; None if it has no row."""
-    lines = path.read_text().splitlines()
-    head = [line for line in lines if line.startswith("#")]
-    if not head:
-        raise FoamFileError(f"{path}: no head of columns")
-    # Name [unit], or a bare name; a unit may have a solidus, never a bracket
-    found = re.findall(r"(\w+)(?:\s*\[([^\]]*)\])?", head[-1].lstrip("# "))
-    names = [name for name, _ in found]
-    rows = [line.split() for line in lines if line and line[0] != "#"]
-    # The last row of a run that was killed may be cut
-    rows = [row for row in rows if len(row) == len(names)]
-    if not rows:
-        return None
-    data = np.array(rows, dtype=float).T
-    return Table(
-        dict(zip(names, data, strict=True)),
-        dict(found),
-    )
-
-
-def read_starts(case, name: str, file: str | None = None) -> list[Table]:
-    """The tables of a function object, one for each start of the run.
-
-    In the order of the times they start from, and for one time in the order
-    in which they were written.
+    times      [s] of its fields; (): up to ten over the run
+    reference  to what is there at this time [s] mass and surface are related
+    loaded     bolus carrying less equivalent stress than this [Pa] counts as
+               unloaded: its triaxiality is a ratio of small numbers
     """
-    folder = Path(case) / "postProcessing" / name
-    file = file or name
-    found = []
-    if folder.is_dir():
-        for start in folder.iterdir():
-            for path in start.glob(f"{file}*.dat"):
-                # file.dat, file_2.dat, ... of one start time
-                order = re.fullmatch(rf"{file}(?:_(\d+))?", path.stem)
-                if order:
-                    number = int(order.group(1) or 1)
-                    found.append((float(start.name), number, path))
-    if not found:
-        raise FoamFileError(f"{folder}: no table {file}.dat of any start")
-    tables = [_read_one(path) for *_, path in sorted(found)]
-    return [table for table in tables if table]
+
+    times: tuple = ()
+    reference: float | None = None
+    loaded: float = 0.0
+
+    def times_of(self, case: Case) -> tuple:
+        """The times of a case [s], if none were given those written."""
+        return self.times or spread(
+            [t for t in case.times if case.has(t, "alpha")], 10
+        )
 
 
-def read_table(case, name: str, file: str | None = None) -> Table:
-    """The table of a function object over all the starts of the run.
-
-    Where a run was continued from a time before the former one's end, the
-    continuation counts.
-    """
-    tables = read_starts(case, name, file)
-    if not tables:
-        raise FoamFileError(f"{Path(case) / 'postProcessing' / name}: no rows")
-    columns = dict(tables[0].columns)
-    for table in tables[1:]:
-        time = next(iter(columns.values()))
-        # The same time, but for the digits written
-        keep = time < table.time[0] - 1e-9 * np.abs(time).max()
-        columns = {
-            name: np.concatenate([column[keep], table[name]])
-            for name, column in columns.items()
-        }
-    return Table(columns, tables[0].units)
+EVERYWHERE = Measure()
 
 
-def optional_table(case, name: str, file: str | None = None) -> Table | None:
-    """read_table, or None if the case has none."""
-    try:
-        return read_table(case, name, file)
-    except FoamFileError:
-        return None
+def spread(times, most: int) -> tuple:
+    """So many of the times at most, spread over them."""
+    picks = np.linspace(0, len(times) - 1, min(most, len(times)))
+    return tuple(times[i] for i in np.unique(picks.round().astype(int)))
+
+
+def measure_of(path) -> Measure:
+    """At what results.json of a case looked, if it has one."""
+    source = Path(path) / "results.json"
+    if not source.is_file():
+        return EVERYWHERE
+    kept = json.loads(source.read_text()).get("measured", {})
+    return Measure(**kept | {"times": tuple(kept.get("times", ()))})
 
 
 def value(number: float, unit: str, **more) -> dict:
@@ -318,11 +255,8 @@ def energy_shares(table: Table) -> dict[str, np.ndarray]:
     }
 
 
-def table_numbers(path: Path, reference: float) -> dict:
-    """Final and peak values of the function objects.
-
-    reference: the time [s] to which the paper relates retained mass.
-    """
+def table_numbers(path: Path, reference: float | None) -> dict:
+    """Final and peak values of the function objects; reference: see Measure."""
     found: dict = {}
     for name, columns in _COLUMNS.items():
         table = optional_table(path, name)
@@ -337,8 +271,8 @@ def table_numbers(path: Path, reference: float) -> dict:
         }
 
     mass = optional_table(path, "retainedMass")
-    if mass:
-        # What is left at each time, against what was there at the reference
+    if mass and reference is not None:
+        # What is left, against what was there at the reference
         then = mass.at("retained", reference)
         if then:
             found["retainedMass"]["retainedOfReference"] = value(
@@ -348,8 +282,9 @@ def table_numbers(path: Path, reference: float) -> dict:
     if surface:
         change = surface["externalArea"][-1] / surface["externalArea"][0] - 1
         found["freeSurface"]["changeSinceStart"] = value(change, "-")
-        then = surface.at("externalArea", reference)
-        if then:
+        if reference is not None and (
+            then := surface.at("externalArea", reference)
+        ):
             found["freeSurface"]["changeSinceReference"] = value(
                 surface["externalArea"][-1] / then - 1,
                 "-",
@@ -389,8 +324,8 @@ class State:
         return self.numbers[name]["value"] if name in self.numbers else None
 
 
-def state(case: Case, time: float) -> State:
-    """Measure the bolus at a written time."""
+def state(case: Case, time: float, loaded: float = 0.0) -> State:
+    """Measure the bolus at a written time; loaded: see Measure."""
     mesh = case.mesh(time)
     alpha = case.field(time, "alpha")
     bolus = alpha > 0.5
@@ -423,7 +358,7 @@ def state(case: Case, time: float) -> State:
             found["triaxialityMax"] = value(eta[bolus].max(), "-")
             found["triaxialityMin"] = value(eta[bolus].min(), "-")
             # Damaged bolus has hardly a deviator: its ratio says nothing
-            carrying = intact if sigma is None else intact & (sigma > LOADED)
+            carrying = intact if sigma is None else intact & (sigma > loaded)
             if carrying.any():
                 found["triaxialityMaxIntact"] = value(eta[carrying].max(), "-")
                 found["triaxialityMinIntact"] = value(eta[carrying].min(), "-")
@@ -459,25 +394,25 @@ def state(case: Case, time: float) -> State:
     return State(time, found)
 
 
-def states(case: Case, times=PAPER_TIMES) -> dict[float, State]:
+def states(case: Case, measure: Measure) -> dict[float, State]:
     """The bolus at those of the times asked for that were written."""
     found = {}
-    for time in times:
+    for time in measure.times_of(case):
         written = case.nearest(time, TIME_TOLERANCE)
         if written is not None and case.has(written, "alpha"):
-            found[time] = state(case, written)
+            found[time] = state(case, written, measure.loaded)
     return found
 
 
-def collect(path, reference: float = 7.5, times=PAPER_TIMES) -> dict:
+def collect(path, measure: Measure = EVERYWHERE) -> dict:
     """All that results.json holds."""
     path = Path(path)
-    case = Case(path)
-    measured = states(case, times)
+    measured = states(Case(path), measure)
     found = {
         "case": path.resolve().name,
+        "measured": asdict(measure),
         "run": run_numbers(path),
-        "results": table_numbers(path, reference),
+        "results": table_numbers(path, measure.reference),
     }
     if measured:
         found["times"] = {
@@ -487,11 +422,11 @@ def collect(path, reference: float = 7.5, times=PAPER_TIMES) -> dict:
     return found
 
 
-def write_json(path, **options) -> Path:
+def write_json(path, measure: Measure = EVERYWHERE) -> Path:
     """Write results.json into the case; returns its path."""
     target = Path(path) / "results.json"
     # NaN is no JSON: let it fail here, where it is seen
-    text = json.dumps(collect(path, **options), indent=2, allow_nan=False)
+    text = json.dumps(collect(path, measure), indent=2, allow_nan=False)
     target.write_text(text + "\n")
     return target
 
@@ -502,18 +437,25 @@ def main(arguments=None) -> int:
         prog="results", description="Write results.json of a case."
     )
     parser.add_argument("case", type=Path)
-    parser.add_argument(
-        "--reference",
-        type=float,
-        default=7.5,
-        metavar="T",
-        help="relate retained mass and surface to this time [s] (7.5)",
-    )
+    for name, unit, what in (
+        ("times", "T", "of the fields [s] (ten over the run)"),
+        ("reference", "T", "relate mass and surface to this time [s] (none)"),
+        ("loaded", "PA", "least stress of bolus that counts as loaded (0)"),
+    ):
+        parser.add_argument(
+            f"--{name}",
+            type=float,
+            nargs="+" if name == "times" else None,
+            default=getattr(Measure, name),
+            metavar=unit,
+            help=what,
+        )
     options = parser.parse_args(arguments)
+    measure = Measure(tuple(options.times), options.reference, options.loaded)
     try:
         Case(options.case)
         with alone_in(options.case):
-            print(write_json(options.case, reference=options.reference))
+            print(write_json(options.case, measure))
     except (FoamFileError, OSError) as error:
         print(f"results: {error}", file=sys.stderr)
         return 1

@@ -14,12 +14,8 @@ from pathlib import Path
 
 import matplotlib.pyplot as plt
 import numpy as np
-from matplotlib.collections import PolyCollection
-
-from bolus_validation.fields import Case, Mesh, read_mesh
-from bolus_validation.results import Table, read_table
-from bolus_validation.specimens import TUTORIAL, replace, solve
-from bolus_validation.synthetic import (
+from bolus_cases.specimens import TUTORIAL, replace, solve
+from bolus_cases.synthetic import (
     HALF_ANGLE,
     run,
     wedge_mesh,
@@ -29,6 +25,9 @@ from bolus_validation.synthetic import (
     write_laplacian_motion,
     write_motion_fields,
 )
+from bolus_results.fields import Case, Mesh, read_mesh
+from bolus_results.tables import Table, read_table
+from matplotlib.collections import PolyCollection
 
 GRIP = "type contactWall; friction { type none; } separation no;"
 STICK = "type contactWall; friction { type noSlip; } separation no;"

@@ -12,8 +12,7 @@ import subprocess
 from pathlib import Path
 
 import numpy as np
-
-from bolus_validation.fields import Mesh, read_mesh
+from bolus_results.fields import Mesh, read_mesh
 
 HALF_ANGLE = np.radians(2.5)
 
