@@ -267,6 +267,36 @@ def whole_run(case: str, size: float, **settings) -> dict:
     }
 
 
+def run_tutorial(
+    tutorial, case: Path, options, ranks: int = 1, again: bool = False
+) -> str | None:
+    """Run a tutorial with these -set entries into a folder, or go on there.
+
+    Returns the reason if it gave up a step. Raises RuntimeError with what was
+    printed if it failed otherwise: killed, no mesh, bad input.
+    """
+    done = subprocess.run(
+        [
+            *(ROOT / "scripts" / "runCase", tutorial, "-out", case),
+            *("-np", str(ranks)),
+            *(["-continue"] if again else []),
+            *(word for option in options for word in ("-set", option)),
+        ],
+        capture_output=True,
+        text=True,
+        cwd=ROOT,
+        check=False,
+        preexec_fn=_end_with_parent,
+    )
+    log = case / "log.bolusFoam"
+    gave_up = re.findall(
+        r"no convergence at[^\n]*", log.read_text() if log.exists() else ""
+    )
+    if done.returncode and not gave_up:
+        raise RuntimeError(done.stdout[-2000:] + done.stderr)
+    return gave_up[-1] if done.returncode else None
+
+
 def kept_run(tutorial: str, page: str, ranks: int = 1, **settings) -> Path:
     """Run a tutorial with these -set entries, or take the run that is there.
 
@@ -286,29 +316,13 @@ def kept_run(tutorial: str, page: str, ranks: int = 1, **settings) -> Path:
             return case
         # Without a solver's log there is nothing to go on from
         again = (case / "log.bolusFoam").exists()
-        done = subprocess.run(
-            [
-                *(ROOT / "scripts" / "runCase", tutorial, "-out", case),
-                *("-np", str(ranks)),
-                *(["-continue"] if again else []),
-                *(w for o in options if not again for w in ("-set", o)),
-            ],
-            capture_output=True,
-            text=True,
-            cwd=ROOT,
-            check=False,
+        gave_up = run_tutorial(
+            tutorial, case, [] if again else options, ranks, again
         )
-        log = case / "log.bolusFoam"
-        gave_up = re.findall(
-            r"no convergence at[^\n]*", log.read_text() if log.exists() else ""
-        )
-        if done.returncode == 0:
+        if gave_up is None:
             (case / "finished").touch()
-        elif gave_up:
-            (case / "stopped").write_text(gave_up[-1])
         else:
-            # Not the solver's verdict: killed, no mesh, bad input
-            raise RuntimeError(done.stdout[-2000:] + done.stderr)
+            (case / "stopped").write_text(gave_up)
     return case
 
 

@@ -8,6 +8,7 @@ default strain increment of 1e-5 stays below it by a factor of 7 (first order).
 
 import os
 import re
+import subprocess
 from pathlib import Path
 
 import numpy as np
@@ -623,7 +624,7 @@ def test_good_input_passes(tmp_path):
 def test_missing_file_is_named(tmp_path):
     done = run_material_point(GOOD, tmp_path)
     os.remove(tmp_path / "point")
-    done = theory.subprocess.run(
+    done = subprocess.run(
         ["materialPoint", "-dict", "nowhere/atAll"],
         cwd=tmp_path,
         capture_output=True,

@@ -16,9 +16,8 @@ from bolus_cases.specimens import (
     ramp,
     replace,
     solve,
-    solve_in_two,
 )
-from bolus_cases.synthetic import run, write_field
+from bolus_cases.synthetic import run, run_parallel, write_field
 from bolus_results.fields import Case
 from bolus_results.tables import read_table
 
@@ -94,7 +93,7 @@ def push(
         solve(case)
     else:
         # Through the middle of the narrow columns
-        solve_in_two(case)
+        run_parallel(case, "bolusFoam")
         run(case, "reconstructPar", "-latestTime")
     return case
 

@@ -71,30 +71,28 @@ def push_through(case: Path, mu: float, cell: float, step: float):
     half = np.radians(2.5)
     ends = np.cumsum([0, CONTAINER, CONE, LAND])
     radii = (WIDE, WIDE, NARROW, NARROW)
-    vertices = "".join(f"({x:.12g} 0 0)\n" for x in ends) + "".join(
-        f"({x:.12g} {r * np.cos(half):.12g} {s * r * np.sin(half):.12g})\n"
+    vertices = [(x, 0, 0) for x in ends] + [
+        (x, r * np.cos(half), s * r * np.sin(half))
         for s in (-1, 1)
         for x, r in zip(ends, radii, strict=True)
-    )
+    ]
     across = round(WIDE / cell)
-    blocks, names = "", ("container", "cone", "land")
-    patches = {"front": ["wedge", ""], "back": ["wedge", ""]}
-    axis = ""
+    blocks, names = [], ("container", "cone", "land")
+    patches = {"front": ("wedge", []), "back": ("wedge", [])}
+    axis = []
     for i, name in enumerate(names):
         along = round((ends[i + 1] - ends[i]) / cell)
         a, b, front, back = i, i + 1, 4 + i, 8 + i
-        blocks += (
-            f"hex ({a} {b} {front + 1} {front} {a} {b} {back + 1} {back}) "
-            f"({along} {across} 1) simpleGrading (1 1 1)\n"
-        )
-        patches["front"][1] += f"({a} {front} {front + 1} {b})"
-        patches["back"][1] += f"({a} {b} {back + 1} {back})"
-        patches[name] = ["wall", f"({front} {back} {back + 1} {front + 1})"]
-        axis += f"({a} {b} {b} {a})"
+        corners = (a, b, front + 1, front, a, b, back + 1, back)
+        blocks.append((corners, (along, across, 1)))
+        patches["front"][1].append((a, front, front + 1, b))
+        patches["back"][1].append((a, b, back + 1, back))
+        patches[name] = "wall", [(front, back, back + 1, front + 1)]
+        axis.append((a, b, b, a))
     patches |= {
-        "piston": ["wall", "(0 8 4 0)"],
-        "outlet": ["patch", "(3 7 11 3)"],
-        "axis": ["empty", axis],
+        "piston": ("wall", [(0, 8, 4, 0)]),
+        "outlet": ("patch", [(3, 7, 11, 3)]),
+        "axis": ("empty", axis),
     }
     write_blocks(case, vertices, blocks, patches)
     still = "type fixedValue; value uniform (0 0 0);"

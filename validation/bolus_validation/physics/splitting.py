@@ -281,33 +281,32 @@ def punched(
             (k, j, i) for k in range(2) for j in range(3) for i in range(3)
         )
     }
-    vertices = "".join(
-        f"({xs[i]:.9g} {ys[j]:.9g} {0.01 * k:g})\n"
-        for (i, j, k) in sorted(number, key=number.get)
-    )
+    vertices = [(xs[i], ys[j], 0.01 * k) for i, j, k in number]
 
     def side(i0, j0, i1, j1):
         """A face over the edge from (i0, j0) to (i1, j1)."""
         ends = ((i0, j0, 0), (i1, j1, 0), (i1, j1, 1), (i0, j0, 1))
-        return "(" + " ".join(str(number[e]) for e in ends) + ")"
+        return tuple(number[e] for e in ends)
 
     def square(i, j, k):
         ends = ((i, j, k), (i + 1, j, k), (i + 1, j + 1, k), (i, j + 1, k))
-        return "(" + " ".join(str(number[e]) for e in ends) + ")"
+        return tuple(number[e] for e in ends)
 
-    blocks, flats = "", ""
+    blocks, flats = [], []
     for i, j in ((0, 0), (1, 0), (1, 1)):
         n = [round((s[m + 1] - s[m]) / cell) for s, m in ((xs, i), (ys, j))]
-        corners = (square(i, j, 0) + " " + square(i, j, 1)).replace(") (", " ")
-        blocks += f"hex {corners} ({n[0]} {n[1]} 1) simpleGrading (1 1 1)\n"
-        flats += square(i, j, 0) + " " + square(i, j, 1)
+        blocks.append((square(i, j, 0) + square(i, j, 1), (*n, 1)))
+        flats += square(i, j, 0), square(i, j, 1)
     patches = {
-        "left": ("symmetryPlane", side(0, 0, 0, 1)),
-        "bottom": ("symmetryPlane", side(0, 0, 1, 0) + side(1, 0, 2, 0)),
-        "right": ("patch", side(2, 0, 2, 1) + side(2, 1, 2, 2)),
-        "top": ("patch", side(1, 2, 2, 2)),
-        "punch": ("wall", side(0, 1, 1, 1)),
-        "punchSide": ("wall", side(1, 1, 1, 2)),
+        "left": ("symmetryPlane", [side(0, 0, 0, 1)]),
+        "bottom": (
+            "symmetryPlane",
+            [side(0, 0, 1, 0), side(1, 0, 2, 0)],
+        ),
+        "right": ("patch", [side(2, 0, 2, 1), side(2, 1, 2, 2)]),
+        "top": ("patch", [side(1, 2, 2, 2)]),
+        "punch": ("wall", [side(0, 1, 1, 1)]),
+        "punchSide": ("wall", [side(1, 1, 1, 2)]),
         "flat": ("empty", flats),
     }
     write_blocks(case, vertices, blocks, patches)
