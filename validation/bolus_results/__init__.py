@@ -6,8 +6,10 @@ foam_files      files of OpenFOAM as numbers and text
 fields, frame   meshes and cell fields of a case; where its axis is
 tables          tables of the function objects
 material_point  materialPoint and its tables
+measure, state  at what a run is looked; the bolus at one time
 results         results.json of a run; summary: a dozen lines of it
-plots           pictures of a run
+plots, curves   pictures of a run: its fields, its tables
 page            one HTML page about runs, side by side
+html, markdown  pages from templates; tables in pages
 locking         a folder for one process at a time
 """

@@ -39,7 +39,7 @@ from bolus_results import curves
 from bolus_results.fields import Case, NoSection, Section
 from bolus_results.foam_files import FoamFileError, stored
 from bolus_results.locking import alone_in
-from bolus_results.results import TIME_TOLERANCE, measure_of, spread
+from bolus_results.measure import TIME_TOLERANCE, measure_of, spread
 
 MM = 1e3
 VOID = "#f4f1ec"

@@ -14,7 +14,7 @@ import argparse
 import json
 import re
 import sys
-from dataclasses import asdict, dataclass
+from dataclasses import asdict
 from pathlib import Path
 
 import numpy as np
@@ -22,64 +22,10 @@ import numpy as np
 from bolus_results.fields import Case
 from bolus_results.foam_files import FoamFileError, read_text, stored
 from bolus_results.locking import alone_in
+from bolus_results.measure import EVERYWHERE, Measure, value
 from bolus_results.profiling import phases
+from bolus_results.state import states
 from bolus_results.tables import Table, optional_table, read_starts
-
-# A written field stands for a time if it is this near [s]: a wave moves by
-# 0.1 mm in it
-TIME_TOLERANCE = 0.04
-
-# A connected piece below this part of the bolus's volume is a crumb, no
-# fragment: a few cells of a coarse mesh
-CRUMB = 0.01
-
-
-@dataclass(frozen=True)
-class Measure:
-    """At what a run is looked.
-
-    times      [s] of its fields; (): up to ten over the run
-    reference  to what is there at this time [s] mass and surface are related
-    loaded     bolus carrying less equivalent stress than this [Pa] counts as
-               unloaded: its triaxiality is a ratio of small numbers
-    """
-
-    times: tuple = ()
-    reference: float | None = None
-    loaded: float = 0.0
-
-    def times_of(self, case: Case) -> tuple:
-        """The times of a case [s], if none were given those written."""
-        return self.times or spread(
-            [t for t in case.times if case.has(t, "alpha")], 10
-        )
-
-
-EVERYWHERE = Measure()
-
-
-def spread(times, most: int) -> tuple:
-    """So many of the times at most, spread over them."""
-    picks = np.linspace(0, len(times) - 1, min(most, len(times)))
-    return tuple(times[i] for i in np.unique(picks.round().astype(int)))
-
-
-def measure_of(path) -> Measure:
-    """At what results.json of a case looked, if it has one."""
-    source = Path(path) / "results.json"
-    if not source.is_file():
-        return EVERYWHERE
-    kept = json.loads(source.read_text()).get("measured", {})
-    return Measure(**kept | {"times": tuple(kept.get("times", ()))})
-
-
-def value(number: float, unit: str, **more) -> dict:
-    """A number of results.json; counts stay whole."""
-    whole = isinstance(number, (int, np.integer))
-    return {
-        "value": int(number) if whole else float(number),
-        "unit": unit,
-    } | more
 
 
 def _peak(table: Table, name: str) -> dict:
@@ -300,107 +246,6 @@ def table_numbers(path: Path, reference: float | None) -> dict:
     if damage and damage["damaged"].max() > 0:
         first = int(np.flatnonzero(damage["damaged"] > 0)[0])
         found["damagedVolume"]["firstDamage"] = value(damage.time[first], "s")
-    return found
-
-
-@dataclass
-class State:
-    """The bolus at a written time, from its fields; SI units.
-
-    Extremes are over the cells with alpha > 0.5. Pieces are connected sets of
-    such cells of at least 1 % of the bolus, crumbs the smaller ones; of all
-    the bolus, and of what is not damaged (D <= 0.5), which only bolus that
-    still carries tension connects.
-    """
-
-    time: float
-    numbers: dict
-
-    def __getitem__(self, name: str) -> float:
-        return self.numbers[name]["value"]
-
-    def get(self, name: str) -> float | None:
-        """A number, None if its field was not written."""
-        return self.numbers[name]["value"] if name in self.numbers else None
-
-
-def state(case: Case, time: float, loaded: float = 0.0) -> State:
-    """Measure the bolus at a written time; loaded: see Measure."""
-    mesh = case.mesh(time)
-    alpha = case.field(time, "alpha")
-    bolus = alpha > 0.5
-    volume = alpha * mesh.cell_volumes
-    found: dict = {}
-
-    def field(name):
-        return case.field(time, name) if case.has(time, name) else None
-
-    damage = field("D")
-    intact = bolus if damage is None else bolus & (damage <= 0.5)
-    whole = volume[bolus].sum()
-
-    for label, cells in (("", bolus), ("Intact", intact)):
-        pieces = mesh.fragments(cells, volume)
-        large = pieces >= CRUMB * whole
-        found["pieces" + label] = value(large.sum(), "-")
-        found["crumbs" + label] = value((~large).sum(), "-")
-        if pieces.size:
-            found["largestPiece" + label] = value(pieces[0] / whole, "-")
-
-    if bolus.any():
-        sigma = field("sigmaEq")
-        if sigma is not None:
-            found["sigmaEqMax"] = value(sigma[bolus].max(), "Pa")
-            mean = np.average(sigma[bolus], weights=volume[bolus])
-            found["sigmaEqMean"] = value(mean, "Pa")
-        eta = field("triaxiality")
-        if eta is not None:
-            found["triaxialityMax"] = value(eta[bolus].max(), "-")
-            found["triaxialityMin"] = value(eta[bolus].min(), "-")
-            # Damaged bolus has hardly a deviator: its ratio says nothing
-            carrying = intact if sigma is None else intact & (sigma > loaded)
-            if carrying.any():
-                found["triaxialityMaxIntact"] = value(eta[carrying].max(), "-")
-                found["triaxialityMinIntact"] = value(eta[carrying].min(), "-")
-            # The core: within a third of the radius of a sphere of the volume
-            # in the domain
-            if mesh.axisymmetric and sigma is not None:
-                full = 2 * np.pi / mesh.wedge_angle * whole
-                radius = np.cbrt(3 * full / 4 / np.pi)
-                core = carrying & (mesh.radii < radius / 3)
-                if core.any():
-                    i = np.flatnonzero(core)[eta[core].argmax()]
-                    found["triaxialityMaxCore"] = value(
-                        eta[i],
-                        "-",
-                        x=float(mesh.axial[i]),
-                        sigmaEq=float(sigma[i]),
-                    )
-        strain = field("epsilonPEq")
-        if strain is not None:
-            found["epsilonPEqMax"] = value(strain[bolus].max(), "-")
-        velocity = field("U")
-        if velocity is not None:
-            axial = mesh.frame.along(velocity[bolus])
-            found["jetForward"] = value(max(axial.max(), 0), "m/s")
-            found["jetBackward"] = value(max(-axial.min(), 0), "m/s")
-        pressure = field("p")
-        if pressure is not None:
-            found["pMax"] = value(pressure[bolus].max(), "Pa")
-            found["pMin"] = value(pressure[bolus].min(), "Pa")
-        if damage is not None:
-            part = volume[damage > 0.5].sum() / volume.sum()
-            found["damagedFraction"] = value(part, "-")
-    return State(time, found)
-
-
-def states(case: Case, measure: Measure) -> dict[float, State]:
-    """The bolus at those of the times asked for that were written."""
-    found = {}
-    for time in measure.times_of(case):
-        written = case.nearest(time, TIME_TOLERANCE)
-        if written is not None and case.has(written, "alpha"):
-            found[time] = state(case, written, measure.loaded)
     return found
 
 

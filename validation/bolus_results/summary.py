@@ -15,6 +15,7 @@ from pathlib import Path
 
 from bolus_results.foam_files import FoamFileError
 from bolus_results.locking import alone_in
+from bolus_results.measure import number_at
 
 # (title, path of the number in results.json, factor, unit shown, format)
 _LINES = (
@@ -105,16 +106,6 @@ _LINES = (
 )
 
 
-def _find(results: dict, path: str) -> dict | None:
-    """The number at a path, None if there is none."""
-    found = results
-    for key in path.split("."):
-        if not isinstance(found, dict) or key not in found:
-            return None
-        found = found[key]
-    return found
-
-
 def summary(path) -> str:
     """The summary of a case that has a results.json."""
     path = Path(path)
@@ -125,7 +116,7 @@ def summary(path) -> str:
 
     lines = []
     for title, place, factor, unit, form in _LINES:
-        number = _find(results, place)
+        number = number_at(results, place)
         if number is None:
             continue
         scaled = factor * number["value"]

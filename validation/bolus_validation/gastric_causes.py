@@ -14,7 +14,7 @@ from pathlib import Path
 import matplotlib.pyplot as plt
 import numpy as np
 from bolus_results.fields import Case
-from bolus_results.results import TIME_TOLERANCE
+from bolus_results.measure import TIME_TOLERANCE
 
 from bolus_validation.motility import PROFILE
 from bolus_validation.paper import CASE_A, Run

@@ -18,10 +18,12 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
+from bolus_results import markdown
 from bolus_results.fields import Case
 from bolus_results.foam_files import FoamFileError
 from bolus_results.locking import alone_in
-from bolus_results.results import Measure, write_json
+from bolus_results.measure import Measure
+from bolus_results.results import write_json
 from bolus_results.tables import Table, optional_table
 
 BEGIN = "<!-- comparison: begin, made by scripts/results: do not edit -->"
@@ -454,9 +456,7 @@ def comparison(path) -> str:
     for row, here, verdict in found:
         word = verdict if isinstance(verdict, str) else _VERDICT[verdict]
         count[word] += 1
-        lines.append(
-            f"| {row.when} | {row.paper} | {here} | {row.agrees_if} | {word} |"
-        )
+        lines.append((row.when, row.paper, here, row.agrees_if, word))
 
     return "\n".join(
         [
@@ -467,25 +467,13 @@ def comparison(path) -> str:
             f"{count['yes']} rows agree, {count['in part']} in part,"
             f" {count['no']} do not, {count['-']} cannot be told.",
             "",
-            "| when | the paper | this run | agrees if | agrees |",
-            "|---|---|---|---|---|",
-            *lines,
+            markdown.table(
+                ("when", "the paper", "this run", "agrees if", "agrees"), lines
+            ),
             "",
             _NOTES,
         ]
     )
-
-
-def put_between_markers(readme: Path, text: str) -> None:
-    """Replace what stands between the markers of a file."""
-    old = readme.read_text()
-    if old.count(BEGIN) != 1 or old.count(END) != 1:
-        raise FoamFileError(
-            f"{readme}: must have these two lines, each once:\n{BEGIN}\n{END}"
-        )
-    before, rest = old.split(BEGIN)
-    after = rest.split(END)[1]
-    readme.write_text(f"{before}{BEGIN}\n\n{text}\n{END}{after}")
 
 
 def main(arguments=None) -> int:
@@ -510,7 +498,7 @@ def main(arguments=None) -> int:
             target.write_text(text)
         print(target)
         if options.readme:
-            put_between_markers(options.readme, text)
+            markdown.put(options.readme, BEGIN, END, text)
             print(options.readme)
     except (FoamFileError, OSError) as error:
         print(f"paper: {error}", file=sys.stderr)

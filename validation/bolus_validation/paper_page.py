@@ -7,7 +7,7 @@ from pathlib import Path
 
 import matplotlib.pyplot as plt
 import numpy as np
-from bolus_results.foam_files import FoamFileError
+from bolus_results.markdown import put, table
 from scipy.interpolate import PchipInterpolator
 
 from bolus_validation import paper_score, paper_sets
@@ -30,13 +30,6 @@ AS_GOOD = 0.06
 BEST = 3
 
 OUTLINES = dict(zip(paper_score.NAMES, CASE_A, strict=True))
-
-
-def table(heads, rows) -> str:
-    """Markdown."""
-    lines = ["| " + " | ".join(heads) + " |", "|" + "---|" * len(heads)]
-    lines += ["| " + " | ".join(str(c) for c in row) + " |" for row in rows]
-    return "\n".join(lines)
 
 
 def met(record: dict | None) -> str:
@@ -320,22 +313,11 @@ def picture(records: Records, target: Path) -> None:
     plt.close(figure)
 
 
-def put(page: Path, new: str) -> None:
-    """Replace what stands between the markers of a page."""
-    old = page.read_text()
-    if old.count(BEGIN) != 1 or old.count(END) != 1:
-        raise FoamFileError(
-            f"{page}: must have these two lines, each once:\n{BEGIN}\n{END}"
-        )
-    before, rest = old.split(BEGIN)
-    page.write_text(f"{before}{BEGIN}\n\n{new}\n\n{END}{rest.split(END)[1]}")
-
-
 def write(records: Records, base: Path, into_doc: bool = False) -> list[Path]:
     """Write page and picture: into the folder of the search, or into doc."""
     if into_doc:
         page, drawn = ROOT / "doc" / "paper.md", ROOT / "doc" / "paper.png"
-        put(page, text(records))
+        put(page, BEGIN, END, text(records))
     else:
         page, drawn = base / "paper.md", base / "paper.png"
         page.write_text(text(records) + "\n")

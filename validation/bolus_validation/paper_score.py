@@ -15,7 +15,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from bolus_results.fields import Case
-from bolus_results.results import TIME_TOLERANCE
+from bolus_results.measure import TIME_TOLERANCE
 
 from bolus_validation.paper import CASE_A, LOADED, Run
 

@@ -15,6 +15,7 @@ from bolus_results.foam_files import (
     read_field,
     read_list,
 )
+from bolus_results.measure import Measure
 from test_results import broken_bolus
 
 
@@ -31,7 +32,7 @@ def ascii_run(tmp_path_factory):
 
 
 def collected(case):
-    found = results.collect(case, results.Measure((1.0,)))
+    found = results.collect(case, Measure((1.0,)))
     del found["case"]
     return found
 

@@ -10,6 +10,7 @@ from concurrent.futures import Future
 
 import numpy as np
 import pytest
+from bolus_results import markdown
 from bolus_results.foam_files import FoamFileError
 from bolus_validation import paper_page, paper_score, paper_search, paper_sets
 from bolus_validation.motility import PROFILE
@@ -213,9 +214,9 @@ def test_the_page_has_its_markers_once(tmp_path):
     page = tmp_path / "page.md"
     page.write_text("before\n" + paper_page.BEGIN + "\nold\n")
     with pytest.raises(FoamFileError, match="each once"):
-        paper_page.put(page, "new")
+        markdown.put(page, paper_page.BEGIN, paper_page.END, "new")
     page.write_text(page.read_text() + paper_page.END + "\nafter\n")
-    paper_page.put(page, "new")
+    markdown.put(page, paper_page.BEGIN, paper_page.END, "new")
     assert page.read_text().split() == (
         f"before {paper_page.BEGIN} new {paper_page.END} after".split()
     )
