@@ -8,7 +8,7 @@ import re
 import sys
 from pathlib import Path
 
-from bolus_validation.locking import alone_in
+from bolus_results.locking import alone_in
 
 from bolus_calibration import output
 from bolus_calibration.data import DataError, read

@@ -12,7 +12,7 @@ from pathlib import Path
 
 import matplotlib.pyplot as plt
 import numpy as np
-from bolus_validation.rheology import read_table, run_material_point
+from bolus_results.material_point import read_segments, run_material_point
 
 from bolus_calibration.data import SEGMENTS, Curve
 from bolus_calibration.fit import CONFIDENCE, Fit
@@ -131,7 +131,7 @@ def rheometer(curves: list[Curve], text: str, folder: Path) -> list:
                 "materialPoint refused the fitted material:\n"
                 + (done.stderr or done.stdout)
             )
-        table = read_table(folder / "rheometer" / f"curve{i}.dat")
+        table = read_segments(folder / "rheometer" / f"curve{i}.dat")
         parts = [table[s] for s in SEGMENTS if s in table]
         if curve.kind == "shear":
             pairs = [

@@ -1,9 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 the bolusFoam developers
-"""Readers, theory, comparisons and pictures for the cases of bolusFoam.
+"""Theory, the studies, and the paper that they are held against.
 
-fields      meshes and cell fields of a case as numpy arrays
-results     tables of the function objects; results.json of a run
-plots       pictures of a run
-report      a run against what the paper reports
+studies     runs and collects studies
+paper       what the paper reports, and a run against it
+rheology    the laws, integrated without the solver; motility: the wall
 """

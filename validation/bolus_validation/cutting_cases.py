@@ -11,11 +11,10 @@ import shutil
 from pathlib import Path
 
 import numpy as np
-
-from bolus_validation import cutting
-from bolus_validation.results import Table, read_table
-from bolus_validation.specimens import replace, solve
-from bolus_validation.synthetic import run, write_file
+from bolus_cases import cutting
+from bolus_cases.specimens import replace, solve
+from bolus_cases.synthetic import run, write_file
+from bolus_results.tables import Table, read_table
 
 ROOT = Path(__file__).parents[2]
 TUTORIALS = ROOT / "tutorials" / "cutting"
@@ -60,7 +59,7 @@ def prepare(case: Path, tutorial: str = "cylinder2D", **entries) -> Path:
     """A copy of a tutorial with these entries, meshed."""
     copy_tutorial(case, tutorial, **entries)
     shutil.copytree(case / "0.orig", case / "0")
-    run(case, "python", "-m", "bolus_validation.cutting")
+    run(case, "python", "-m", "bolus_cases.cutting")
     return case
 
 

@@ -10,21 +10,15 @@ import csv
 import os
 from pathlib import Path
 
-import matplotlib
+import matplotlib.pyplot as plt
+import numpy as np
+from bolus_cases import cutting
+from bolus_cases.mapped import draw_cells
+from bolus_results.fields import Case
+from bolus_results.foam_files import read_field
+from bolus_results.tables import optional_table, read_table
 
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402
-import numpy as np  # noqa: E402
-
-from bolus_validation import cutting  # noqa: E402
-from bolus_validation.fields import Case  # noqa: E402
-from bolus_validation.foam_files import read_field  # noqa: E402
-from bolus_validation.physics.cases import draw_cells  # noqa: E402
-from bolus_validation.results import (  # noqa: E402
-    optional_table,
-    read_table,
-)
-from bolus_validation.studies import (  # noqa: E402
+from bolus_validation.studies import (
     ROOT,
     Findings,
     kept_run,

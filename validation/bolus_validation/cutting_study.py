@@ -10,21 +10,20 @@ import os
 import re
 from pathlib import Path
 
-import matplotlib
+import matplotlib.pyplot as plt
+import numpy as np
+from bolus_cases.specimens import solve
+from bolus_results.tables import read_table
 
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402
-import numpy as np  # noqa: E402
-
-from bolus_validation import finite_elements  # noqa: E402
-from bolus_validation.cutting_cases import (  # noqa: E402
+from bolus_validation import finite_elements
+from bolus_validation.cutting_cases import (
     ROUGH,
     embedded,
     embedded_force,
     perfectly_plastic,
     prepare,
 )
-from bolus_validation.cutting_runs import (  # noqa: E402
+from bolus_validation.cutting_runs import (
     Run,
     book,
     contours,
@@ -35,11 +34,7 @@ from bolus_validation.cutting_runs import (  # noqa: E402
     spread,
     tutorial_run,
 )
-from bolus_validation.results import (  # noqa: E402
-    read_table,
-)
-from bolus_validation.specimens import solve  # noqa: E402
-from bolus_validation.studies import (  # noqa: E402
+from bolus_validation.studies import (
     ROOT,
     Findings,
     study,

@@ -11,17 +11,14 @@ in run/validate/gastric/runs.
 
 from pathlib import Path
 
-import matplotlib
+import matplotlib.pyplot as plt
+import numpy as np
+from bolus_results.fields import Case
+from bolus_results.measure import TIME_TOLERANCE
 
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402
-import numpy as np  # noqa: E402
-
-from bolus_validation.fields import Case  # noqa: E402
-from bolus_validation.motility import PROFILE  # noqa: E402
-from bolus_validation.report import CASE_A, Run  # noqa: E402
-from bolus_validation.results import TIME_TOLERANCE  # noqa: E402
-from bolus_validation.studies import Findings, kept_run, study  # noqa: E402
+from bolus_validation.motility import PROFILE
+from bolus_validation.paper import CASE_A, Run
+from bolus_validation.studies import Findings, kept_run, study
 
 COARSE = {"resolution": 1e-3, "pylorusRefinement": 2.5}
 

@@ -14,18 +14,17 @@ import json
 from operator import gt, lt
 from pathlib import Path
 
-import matplotlib
+import matplotlib.pyplot as plt
+import numpy as np
+from bolus_results import curves, plots
+from bolus_results.fields import Case
+from bolus_results.results import energy_shares
+from bolus_results.tables import read_table
+from matplotlib.animation import PillowWriter
+from matplotlib.colors import Normalize
 
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402
-import numpy as np  # noqa: E402
-from matplotlib.animation import PillowWriter  # noqa: E402
-from matplotlib.colors import Normalize  # noqa: E402
-
-from bolus_validation import plots  # noqa: E402
-from bolus_validation.fields import Case  # noqa: E402
-from bolus_validation.report import CASE_A, Run  # noqa: E402
-from bolus_validation.results import energy_shares, read_table  # noqa: E402
+from bolus_validation import paper
+from bolus_validation.paper import CASE_A, Run
 from bolus_validation.studies import (
     NO_END,
     Findings,
@@ -37,7 +36,7 @@ from bolus_validation.studies import (
     run_folder,
     study,
     whole_run,
-)  # noqa: E402
+)
 
 # Cell sizes [mm]
 SIZES = (1.0, 0.6, 0.3, 0.15)
@@ -177,10 +176,11 @@ def register_run(case: str, size: float) -> None:
                 Case(path),
                 quantity,
                 folder / (page := f"{quantity.field}.png"),
+                paper.TIMES,
             )
         ]
         animation(path, folder / "damage.gif")
-        plots.pieces(path, folder / "pieces.png")
+        curves.pieces(path, folder / "pieces.png")
         found.picture, *found.more = [*pages, "pieces.png", "damage.gif"]
         return found
 
@@ -258,7 +258,7 @@ def register_cases(size: float) -> None:
             lambda mine, other: 0.9 < mine / other < 1,
             "agrees if by less than 10 %",
         )
-        plots.curves(
+        curves.curves(
             list(paths.values()),
             folder / "curves.png",
             [f"case {name}" for name in paths],
@@ -294,7 +294,7 @@ def register_convergence(case: str, sizes: tuple, limits: bool) -> None:
                     (0.5 if seconds else 0.05) if limits else None,
                     1.0 if seconds else None,
                 )
-        plots.curves(
+        curves.curves(
             paths, folder / "curves.png", [f"{size:g} mm" for size in sizes]
         )
         found.picture = "curves.png"
@@ -325,7 +325,7 @@ def register_chance(case: str, size: float) -> None:
                 for table in (read_table(p, "externalWork") for p in paths)
             ]
             found.row(f"work until {until:g} s", "J", work[1], work[0])
-        plots.curves(
+        curves.curves(
             paths,
             folder / "curves.png",
             ["first step 10 ms", "first step 9.9 ms"],

@@ -11,6 +11,8 @@ fails if the page is not what this would write.
 import re
 from pathlib import Path
 
+from bolus_results import markdown
+
 ROOT = Path(__file__).parents[2]
 TARGET = ROOT / "doc" / "inputs.md"
 
@@ -50,8 +52,7 @@ def section(path: Path) -> str:
     parts = [f"## [{path.stem}](../{where})\n"]
     for table in tables:
         head, *body = rows(table)
-        lines = [head, ["---"] * len(head), *body]
-        parts.append("".join(f"| {' | '.join(line)} |\n" for line in lines))
+        parts.append(markdown.table(head, body) + "\n")
     return "\n".join(parts)
 
 

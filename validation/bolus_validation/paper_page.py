@@ -5,24 +5,21 @@
 from itertools import combinations
 from pathlib import Path
 
-import matplotlib
+import matplotlib.pyplot as plt
+import numpy as np
+from bolus_results.markdown import put, table
+from scipy.interpolate import PchipInterpolator
 
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402
-import numpy as np  # noqa: E402
-from scipy.interpolate import PchipInterpolator  # noqa: E402
-
-from bolus_validation import paper_score, paper_sets  # noqa: E402
-from bolus_validation.foam_files import FoamFileError  # noqa: E402
-from bolus_validation.paper_search import (  # noqa: E402
+from bolus_validation import paper_score, paper_sets
+from bolus_validation.paper import CASE_A
+from bolus_validation.paper_search import (
     CHANCE,
     COARSE,
     FINE,
     Records,
     score,
 )
-from bolus_validation.report import CASE_A  # noqa: E402
-from bolus_validation.studies import ROOT  # noqa: E402
+from bolus_validation.studies import ROOT
 
 BEGIN = "<!-- search: begin, made by ./Allrun validate paper --page -->"
 END = "<!-- search: end -->"
@@ -33,13 +30,6 @@ AS_GOOD = 0.06
 BEST = 3
 
 OUTLINES = dict(zip(paper_score.NAMES, CASE_A, strict=True))
-
-
-def table(heads, rows) -> str:
-    """Markdown."""
-    lines = ["| " + " | ".join(heads) + " |", "|" + "---|" * len(heads)]
-    lines += ["| " + " | ".join(str(c) for c in row) + " |" for row in rows]
-    return "\n".join(lines)
 
 
 def met(record: dict | None) -> str:
@@ -323,22 +313,11 @@ def picture(records: Records, target: Path) -> None:
     plt.close(figure)
 
 
-def put(page: Path, new: str) -> None:
-    """Replace what stands between the markers of a page."""
-    old = page.read_text()
-    if old.count(BEGIN) != 1 or old.count(END) != 1:
-        raise FoamFileError(
-            f"{page}: must have these two lines, each once:\n{BEGIN}\n{END}"
-        )
-    before, rest = old.split(BEGIN)
-    page.write_text(f"{before}{BEGIN}\n\n{new}\n\n{END}{rest.split(END)[1]}")
-
-
 def write(records: Records, base: Path, into_doc: bool = False) -> list[Path]:
     """Write page and picture: into the folder of the search, or into doc."""
     if into_doc:
         page, drawn = ROOT / "doc" / "paper.md", ROOT / "doc" / "paper.png"
-        put(page, text(records))
+        put(page, BEGIN, END, text(records))
     else:
         page, drawn = base / "paper.md", base / "paper.png"
         page.write_text(text(records) + "\n")

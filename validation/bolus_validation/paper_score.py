@@ -2,7 +2,7 @@
 # Copyright (C) 2026 the bolusFoam developers
 """How far a run of case A is from what the paper's text says of it.
 
-For each row of the comparison (report.CASE_A) one number and its distance from
+For each row of the comparison (paper.CASE_A) one number and its distance from
 the row's range: 0 within, growing smoothly outside, so that a search can
 descend. A distance d costs d/(1 + d), at most 1: what cannot be met does not
 drown the rest. The score is the mean cost, by the weights: 0 where every row
@@ -14,10 +14,10 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
+from bolus_results.fields import Case
+from bolus_results.measure import TIME_TOLERANCE
 
-from bolus_validation.fields import Case
-from bolus_validation.report import CASE_A, Run
-from bolus_validation.results import LOADED, TIME_TOLERANCE
+from bolus_validation.paper import CASE_A, LOADED, Run
 
 # The distance of what did not happen or was not reached
 NEVER = 5.0

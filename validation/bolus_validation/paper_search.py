@@ -13,7 +13,6 @@ import hashlib
 import json
 import os
 import shutil
-import subprocess
 import sys
 import time
 from collections.abc import Callable
@@ -27,15 +26,17 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import optuna
+from bolus_results.results import write_json
 from optuna.distributions import CategoricalDistribution, FloatDistribution
 from optuna.trial import TrialState, create_trial
 
-from bolus_validation import paper_score, paper_sets, results
-from bolus_validation.report import Run
+from bolus_validation import paper_score, paper_sets
+from bolus_validation.paper import MEASURE, Run
 from bolus_validation.studies import (
     ROOT,
     _end_with_parent,
     gastric_settings,
+    run_tutorial,
     solver_hash,
 )
 
@@ -120,23 +121,9 @@ def run(base: Path, job: Job, sources: str, keep: bool = False) -> dict:
     shutil.rmtree(folder, ignore_errors=True)
     folder.parent.mkdir(parents=True, exist_ok=True)
     start = time.monotonic()
-    done = subprocess.run(
-        [
-            *(ROOT / "scripts" / "runCase", _tutorial(base, job.case)),
-            *("-out", folder),
-            *(w for e in job.entries.items() for w in ("-set", "=".join(e))),
-        ],
-        capture_output=True,
-        text=True,
-        cwd=ROOT,
-        check=False,
-        preexec_fn=_end_with_parent,
-    )
-    log = folder / "log.bolusFoam"
-    gave_up = log.exists() and "no convergence at" in log.read_text()
-    if done.returncode and not gave_up:
-        raise RuntimeError(done.stdout[-2000:] + done.stderr)
-    results.write_json(folder)
+    options = ["=".join(entry) for entry in job.entries.items()]
+    gave_up = run_tutorial(_tutorial(base, job.case), folder, options)
+    write_json(folder, MEASURE)
     of = Run(folder)
     record = {
         "key": key,
@@ -145,7 +132,7 @@ def run(base: Path, job: Job, sources: str, keep: bool = False) -> dict:
         "case": job.case,
         "size": job.size,
         "other": list(job.other),
-        "gaveUp": gave_up,
+        "gaveUp": gave_up is not None,
         "rows": paper_score.measure(of),
         "figures": figures(of),
         "seconds": round(time.monotonic() - start, 1),

@@ -16,12 +16,12 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+from bolus_cases import specimens
+from bolus_cases.synthetic import run, write_file
+from bolus_results.fields import Case
+from bolus_results.tables import read_table
 
-from bolus_validation import specimens
-from bolus_validation.fields import Case
-from bolus_validation.results import read_table
 from bolus_validation.robustness import expand
-from bolus_validation.synthetic import run, write_file
 
 COMMON = specimens.COMMON
 VOID = (

@@ -15,18 +15,16 @@ import re
 import time
 from pathlib import Path
 
-import matplotlib
+import matplotlib.pyplot as plt
 import numpy as np
+from bolus_cases.specimens import compression
+from bolus_results.profiling import PHASES, phases
+from bolus_results.results import run_numbers
+from bolus_results.tables import read_table
 
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402
-
-from bolus_validation import stock  # noqa: E402
-from bolus_validation.physics import limit  # noqa: E402
-from bolus_validation.profiling import PHASES, phases  # noqa: E402
-from bolus_validation.results import read_table, run_numbers  # noqa: E402
-from bolus_validation.specimens import compression  # noqa: E402
-from bolus_validation.studies import (  # noqa: E402
+from bolus_validation import stock
+from bolus_validation.physics import limit
+from bolus_validation.studies import (
     NO_END,
     Findings,
     gastric_settings,

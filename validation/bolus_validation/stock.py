@@ -20,9 +20,8 @@ import time
 from pathlib import Path
 
 import numpy as np
-
-from bolus_validation.specimens import prepare_compression
-from bolus_validation.synthetic import run, write_file
+from bolus_cases.specimens import prepare_compression
+from bolus_cases.synthetic import run, write_file
 
 # Cylinder [m], law (4100 + 11000 rate^0.29) [Pa], density [kg/m3]
 HEIGHT, RADIUS = 0.020, 0.010

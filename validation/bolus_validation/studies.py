@@ -14,9 +14,7 @@ nothing that it depends on has changed: solver, study, common properties.
 import argparse
 import ctypes
 import hashlib
-import html
 import json
-import math
 import os
 import re
 import shutil
@@ -31,8 +29,8 @@ from dataclasses import asdict, dataclass, field
 from pathlib import Path
 
 import numpy as np
-
-from bolus_validation.locking import FolderBusy, alone_in, locked
+from bolus_results.html import render
+from bolus_results.locking import FolderBusy, alone_in, locked
 
 ROOT = Path(__file__).parents[2]
 
@@ -193,8 +191,8 @@ def _hash(files) -> str:
 SOLVER = ("src", "applications", "tutorials/common")
 SET_UP = {
     "cutting": (
-        "validation/bolus_validation/cutting.py",
-        "validation/bolus_validation/tool_surface.py",
+        "validation/bolus_cases/cutting.py",
+        "validation/bolus_cases/tool_surface.py",
     )
 }
 FAMILIES = ("cutting", "gastric", "rheology")
@@ -268,6 +266,36 @@ def whole_run(case: str, size: float, **settings) -> dict:
     }
 
 
+def run_tutorial(
+    tutorial, case: Path, options, ranks: int = 1, again: bool = False
+) -> str | None:
+    """Run a tutorial with these -set entries into a folder, or go on there.
+
+    Returns the reason if it gave up a step. Raises RuntimeError with what was
+    printed if it failed otherwise: killed, no mesh, bad input.
+    """
+    done = subprocess.run(
+        [
+            *(ROOT / "scripts" / "runCase", tutorial, "-out", case),
+            *("-np", str(ranks)),
+            *(["-continue"] if again else []),
+            *(word for option in options for word in ("-set", option)),
+        ],
+        capture_output=True,
+        text=True,
+        cwd=ROOT,
+        check=False,
+        preexec_fn=_end_with_parent,
+    )
+    log = case / "log.bolusFoam"
+    gave_up = re.findall(
+        r"no convergence at[^\n]*", log.read_text() if log.exists() else ""
+    )
+    if done.returncode and not gave_up:
+        raise RuntimeError(done.stdout[-2000:] + done.stderr)
+    return gave_up[-1] if done.returncode else None
+
+
 def kept_run(tutorial: str, page: str, ranks: int = 1, **settings) -> Path:
     """Run a tutorial with these -set entries, or take the run that is there.
 
@@ -287,29 +315,13 @@ def kept_run(tutorial: str, page: str, ranks: int = 1, **settings) -> Path:
             return case
         # Without a solver's log there is nothing to go on from
         again = (case / "log.bolusFoam").exists()
-        done = subprocess.run(
-            [
-                *(ROOT / "scripts" / "runCase", tutorial, "-out", case),
-                *("-np", str(ranks)),
-                *(["-continue"] if again else []),
-                *(w for o in options if not again for w in ("-set", o)),
-            ],
-            capture_output=True,
-            text=True,
-            cwd=ROOT,
-            check=False,
+        gave_up = run_tutorial(
+            tutorial, case, [] if again else options, ranks, again
         )
-        log = case / "log.bolusFoam"
-        gave_up = re.findall(
-            r"no convergence at[^\n]*", log.read_text() if log.exists() else ""
-        )
-        if done.returncode == 0:
+        if gave_up is None:
             (case / "finished").touch()
-        elif gave_up:
-            (case / "stopped").write_text(gave_up[-1])
         else:
-            # Not the solver's verdict: killed, no mesh, bad input
-            raise RuntimeError(done.stdout[-2000:] + done.stderr)
+            (case / "stopped").write_text(gave_up)
     return case
 
 
@@ -318,8 +330,11 @@ def _key(one: Study) -> str:
     base = ROOT / "validation"
     own = _hash(
         [
-            *sorted((base / "bolus_validation").glob("*.py")),
-            base / "bolus_validation" / "physics" / "cases.py",
+            *(
+                path
+                for package in ("results", "cases", "validation")
+                for path in sorted((base / f"bolus_{package}").glob("*.py"))
+            ),
             base / (one.module.replace(".", "/") + ".py"),
         ]
     )
@@ -445,96 +460,14 @@ def command(
     sys.exit(run_all(page, title, given.names, given.force, workers))
 
 
-def _number(x: float | None) -> str:
-    return "" if x is None or not math.isfinite(x) else f"{x:.5g}"
-
-
-def _percent(x: float | None) -> str:
-    return "" if x is None else f"{100 * x:.3g} %"
-
-
-def _verdict(met: bool | None) -> str:
-    if met is None:
-        return "<td></td>"
-    return f'<td class="{"yes" if met else "no"}">{"yes" if met else "no"}</td>'
-
-
-def _section(base: Path, result: dict) -> str:
-    one = REGISTRY[result["name"]]
-    text = [
-        f'<h2 id="{one.name}">{one.group}. {html.escape(one.title)}</h2>',
-        f"<p>Reference: {html.escape(one.reference)}. "
-        f"{result['seconds']} s.</p>",
-    ]
-    if result.get("stale"):
-        text.append(
-            '<p class="no">From an earlier version of solver or study.</p>'
-        )
-    if result["error"]:
-        text.append(f"<pre>{html.escape(result['error'])}</pre>")
-        return "\n".join(text)
-    if result["picture"]:
-        text += [
-            f'<img src="{one.name}/{name}">'
-            for name in (result["picture"], *result.get("more", []))
-        ]
-    if result["rows"]:
-        text.append(
-            "<table><tr><th>quantity<th>unit<th>ours<th>reference<th>error"
-            "<th>limit<th>met<th></tr>"
-        )
-        for r in result["rows"]:
-            text.append(
-                f"<tr><td>{html.escape(r['quantity'])}<td>{r['unit']}"
-                f"<td>{_number(r['value'])}<td>{_number(r['reference'])}"
-                f"<td>{_percent(r['error'])}<td>{_percent(r['limit'])}"
-                f"{_verdict(r['met'])}<td>{html.escape(r['remark'])}</tr>"
-            )
-        text.append("</table>")
-    if result["orders"]:
-        text.append(
-            "<table><tr><th>order of<th>sizes<th>errors<th>observed"
-            "<th>at least<th>met</tr>"
-        )
-        for o in result["orders"]:
-            text.append(
-                f"<tr><td>{html.escape(o['quantity'])}"
-                f"<td>{', '.join(map(_number, o['sizes']))}"
-                f"<td>{', '.join(map(_percent, o['errors']))}"
-                f"<td>{o['observed']:.2f}<td>{_number(o['least'])}"
-                f"{_verdict(o['met'])}</tr>"
-            )
-        text.append("</table>")
-    text += [f"<p>{html.escape(r)}</p>" for r in result["remarks"]]
-    return "\n".join(text)
-
-
-_STYLE = """
-body { font: 15px sans-serif; max-width: 60em; margin: 2em auto; }
-table { border-collapse: collapse; margin: 1em 0; }
-td, th { border: 1px solid #ccc; padding: .2em .5em; text-align: left; }
-img { max-width: 100%; }
-.yes { color: #060; } .no { color: #b00; font-weight: bold; }
-"""
-
-
 def _write_page(base: Path, page: str, title: str, results: dict) -> None:
     """One HTML page and one JSON of all results, in the registered order."""
     ordered = [results[n] for n in REGISTRY if n in results]
-    contents = "\n".join(
-        f"<tr><td>{REGISTRY[r['name']].group}"
-        f'<td><a href="#{r["name"]}">'
-        f"{html.escape(REGISTRY[r['name']].title)}</a>{_verdict(r['met'])}</tr>"
-        for r in ordered
-    )
-    absent = [n for n in REGISTRY if n not in results]
-    text = (
-        f'<!DOCTYPE html><html lang="en"><head><meta charset="utf-8">'
-        f"<title>{title}</title><style>{_STYLE}</style></head><body>"
-        f"<h1>{title}</h1><table>{contents}</table>"
-        + (f"<p>Not run yet: {', '.join(absent)}.</p>" if absent else "")
-        + "\n".join(_section(base, r) for r in ordered)
-        + "</body></html>"
+    text = render(
+        "studies.html",
+        title=title,
+        studies=[(REGISTRY[r["name"]], r) for r in ordered],
+        absent=[n for n in REGISTRY if n not in results],
     )
     (base / f"{page}.html").write_text(text)
     (base / f"{page}.json").write_text(json.dumps(ordered, indent=1))

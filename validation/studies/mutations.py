@@ -19,7 +19,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
 
-from bolus_validation.locking import FolderBusy, alone_in  # noqa: E402
+from bolus_results.locking import FolderBusy, alone_in  # noqa: E402
 
 ROOT = Path(__file__).parents[2]
 BASE = ROOT / "run" / "validate" / "mutations"

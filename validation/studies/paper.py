@@ -10,12 +10,9 @@ run/validate/paper: a search that was stopped goes on.
 import argparse
 import shutil
 import sys
-from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).parents[1]))
-
-from bolus_validation import paper_page, paper_search  # noqa: E402
-from bolus_validation.locking import FolderBusy, alone_in  # noqa: E402
+from bolus_results.locking import FolderBusy, alone_in
+from bolus_validation import paper_page, paper_search
 
 
 def main(given) -> None:

@@ -4,13 +4,9 @@
 
 import importlib
 import pkgutil
-import sys
-from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).parents[1]))
-
-from bolus_validation import physics  # noqa: E402
-from bolus_validation.studies import command  # noqa: E402
+from bolus_validation import physics
+from bolus_validation.studies import command
 
 if __name__ == "__main__":
     # The studies register themselves

@@ -10,11 +10,9 @@ import shutil
 import sys
 from pathlib import Path
 
-sys.path.insert(0, str(Path(__file__).parents[1]))
-
-from bolus_validation import robustness as rough  # noqa: E402
-from bolus_validation.locking import FolderBusy, alone_in  # noqa: E402
-from bolus_validation.robustness_cases import BASES, kill_test  # noqa: E402
+from bolus_results.locking import FolderBusy, alone_in
+from bolus_validation import robustness as rough
+from bolus_validation.robustness_cases import BASES, kill_test
 
 ROOT = Path(__file__).parents[2]
 BASE = ROOT / "run" / "validate" / "robustness"

@@ -2,14 +2,9 @@
 # Copyright (C) 2026 the bolusFoam developers
 """Where the time goes, on one core and two, and how it grows with the cells."""
 
-import sys
-from pathlib import Path
-
-sys.path.insert(0, str(Path(__file__).parents[1]))
-
 # The studies register themselves
-from bolus_validation import speed_study  # noqa: E402, F401
-from bolus_validation.studies import command  # noqa: E402
+from bolus_validation import speed_study  # noqa: F401
+from bolus_validation.studies import command
 
 if __name__ == "__main__":
     # One at a time: what runs beside would be timed too

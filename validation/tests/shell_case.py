@@ -8,7 +8,7 @@ import subprocess
 import time
 from pathlib import Path
 
-from bolus_validation.synthetic import write_file
+from bolus_cases.synthetic import write_file
 
 ROOT = Path(__file__).resolve().parents[2]
 

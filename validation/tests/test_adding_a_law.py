@@ -10,10 +10,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from bolus_cases.specimens import replace, run_case
+from bolus_results.foam_files import expanded
+from bolus_results.tables import read_table
 from bolus_validation import rheology
-from bolus_validation.foam_files import expanded
-from bolus_validation.results import read_table
-from bolus_validation.specimens import replace, run_case
 from scipy.optimize import brentq
 
 ROOT = Path(__file__).parents[2]

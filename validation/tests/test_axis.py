@@ -10,9 +10,9 @@ import shutil
 
 import numpy as np
 import pytest
-from bolus_validation.results import read_table
-from bolus_validation.specimens import ROOT, replace, run_case
-from bolus_validation.synthetic import run, run_parallel
+from bolus_cases.specimens import ROOT, replace, run_case
+from bolus_cases.synthetic import run, run_parallel
+from bolus_results.tables import read_table
 
 CASE_A = ROOT / "tutorials" / "gastric" / "caseA"
 COARSE = (

@@ -7,8 +7,7 @@ import shutil
 
 import numpy as np
 import pytest
-from bolus_validation.results import read_table
-from bolus_validation.synthetic import (
+from bolus_cases.synthetic import (
     HALF_ANGLE,
     laplacian_case,
     run,
@@ -18,6 +17,7 @@ from bolus_validation.synthetic import (
     write_control,
     write_field,
 )
+from bolus_results.tables import read_table
 from scipy.optimize import minimize_scalar
 
 RHO = 1000

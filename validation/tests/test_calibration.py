@@ -25,11 +25,12 @@ from bolus_calibration.model import (
     PowerHardening,
     Tabulated,
 )
+from bolus_cases.specimens import replace
+from bolus_cases.synthetic import write_file
+from bolus_results.foam_files import expanded
+from bolus_results.locking import NAME
+from bolus_results.material_point import read_segments, run_material_point
 from bolus_validation import rheology as theory
-from bolus_validation.foam_files import expanded
-from bolus_validation.locking import NAME
-from bolus_validation.specimens import replace
-from bolus_validation.synthetic import write_file
 
 ROOT = Path(__file__).parents[2]
 TABLE = theory.Tabulated(theory.RATES, theory.STRESSES)
@@ -481,11 +482,11 @@ def test_an_installed_law_is_found_by_its_name_and_is_no_part_of_the_clone(
         )
     assert path.parent != MATERIALS[0].parent
 
-    done = theory.run_material_point(by_name(name), tmp_path)
+    done = run_material_point(by_name(name), tmp_path)
     assert done.returncode == 0, done.stderr
     found = json.loads((tmp_path / "out" / "calibration.json").read_text())
     e = found["laws"][0]["numbers"]["E"]["value"]
-    table = theory.read_table(tmp_path / "point.dat")["a"]
+    table = read_segments(tmp_path / "point.dat")["a"]
     slope = table["axialStress"][1] / table["axialStrain"][1]
     # At the first row, a strain of 1e-4, hardly anything flows
     assert slope == pytest.approx(e, rel=0.05)
@@ -518,7 +519,7 @@ def test_cases_find_laws_by_their_names(tmp_path, installed):
 def test_a_law_that_there_is_not_and_a_name_that_is_taken_are_refused(
     tmp_path, capsys
 ):
-    done = theory.run_material_point(by_name("noLaw"), tmp_path)
+    done = run_material_point(by_name("noLaw"), tmp_path)
     assert done.returncode != 0
     assert "tutorials/common/bolusProperties.noLaw" in done.stderr
     data = str(texture_analyser(tmp_path))
@@ -558,26 +559,26 @@ def test_each_material_gives_what_its_source_prints(tmp_path, path):
     assert f"`{name}`" in readme
     tolerance = 150 if name == "HerschelBulkley" else 10
     for rate, printed in PRINTED[name]:
-        done = theory.run_material_point(
+        done = run_material_point(
             f'bolusProperties {{ #include "{path}" }}\n'
             "maxStrainIncrement 1e-4;\n"
             f"segments {{ a {{ mode uniaxial; rate {rate}; strain -1.5; }} }}",
             tmp_path,
         )
         assert done.returncode == 0, done.stderr
-        stress = theory.read_table(tmp_path / "point.dat")["a"]["sigmaEq"][-1]
+        stress = read_segments(tmp_path / "point.dat")["a"]["sigmaEq"][-1]
         assert abs(stress - printed) < tolerance
 
 
 def test_the_end_of_the_j_law_is_youngs_modulus(tmp_path):
     # What JLawLimited and case D say of it; without the end it has 194 kPa
     path = ROOT / "tutorials" / "common" / "bolusProperties.JLawLimited"
-    done = theory.run_material_point(
+    done = run_material_point(
         f'bolusProperties {{ #include "{path}" }}\n'
         "maxStrainIncrement 1e-3;\n"
         "segments { a { mode uniaxial; rate 0.1; strain -6; } }",
         tmp_path,
     )
     assert done.returncode == 0, done.stderr
-    stress = theory.read_table(tmp_path / "point.dat")["a"]["sigmaEq"]
+    stress = read_segments(tmp_path / "point.dat")["a"]["sigmaEq"]
     assert stress[-1] == pytest.approx(100e3, rel=0.01)

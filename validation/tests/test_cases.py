@@ -8,10 +8,10 @@ So coarse that no figure means much; the order is that of the finer meshes.
 from functools import cache
 
 import pytest
+from bolus_cases.specimens import run_case
+from bolus_results.tables import read_table
 from bolus_validation import gastric_study
 from bolus_validation.gastric_study import UNENDED, figures
-from bolus_validation.results import read_table
-from bolus_validation.specimens import run_case
 from bolus_validation.studies import NO_END, REGISTRY, GaveUp
 
 OBJECTIVE_RATE = "constant/bolusProperties:elasticity.objectiveRate"

@@ -10,7 +10,13 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
-from bolus_validation import cutting, cutting_runs
+from bolus_cases import cutting
+from bolus_cases.specimens import replace, run_case, solve
+from bolus_cases.synthetic import run, run_parallel
+from bolus_cases.tool_surface import outline
+from bolus_results.fields import Case, read_mesh
+from bolus_results.tables import read_table
+from bolus_validation import cutting_runs
 from bolus_validation.cutting_cases import (
     ROUGH,
     copy_tutorial,
@@ -27,12 +33,7 @@ from bolus_validation.cutting_runs import (
     overlay,
 )
 from bolus_validation.cutting_study import first_damage
-from bolus_validation.fields import Case, read_mesh
-from bolus_validation.results import read_table
-from bolus_validation.specimens import replace, run_case, solve
 from bolus_validation.studies import Findings
-from bolus_validation.synthetic import run, run_parallel
-from bolus_validation.tool_surface import outline
 
 # Four cells per diameter: some 300 cells, 10 mm of travel in a few seconds
 COARSE = {
@@ -504,7 +505,7 @@ def test_bad_input_is_one_clear_error_before_the_first_step(
 )
 def test_the_mesher_tells_bad_parameters(tmp_path, entries, words):
     case = copy_tutorial(tmp_path / "case", **(SHORT | entries))
-    output = run(case, "python", "-m", "bolus_validation.cutting", ok=False)
+    output = run(case, "python", "-m", "bolus_cases.cutting", ok=False)
     assert [word for word in words if word not in output] == [], output
     assert "Traceback" not in output
 
@@ -666,7 +667,7 @@ def test_the_mesher_tells_bad_surfaces(tmp_path, what):
     case = copy_tutorial(
         tmp_path / "case", **(SHORT | entries), toolSurface=stl
     )
-    output = run(case, "python", "-m", "bolus_validation.cutting", ok=False)
+    output = run(case, "python", "-m", "bolus_cases.cutting", ok=False)
     output = " ".join(output.split())
     assert [word for word in words if word not in output] == [], output
     assert "Traceback" not in output

@@ -13,10 +13,7 @@ import shutil
 
 import numpy as np
 import pytest
-from bolus_validation import plots, results, rheology
-from bolus_validation.fields import Case
-from bolus_validation.results import energy_shares, read_table
-from bolus_validation.specimens import (
+from bolus_cases.specimens import (
     GRIPPING,
     HEIGHT,
     box,
@@ -27,7 +24,12 @@ from bolus_validation.specimens import (
     run_case,
     solve,
 )
-from bolus_validation.synthetic import run, write_control, write_field
+from bolus_cases.synthetic import run, write_control, write_field
+from bolus_results import curves, results
+from bolus_results.fields import Case
+from bolus_results.results import energy_shares
+from bolus_results.tables import read_table
+from bolus_validation import rheology
 
 # An identity of the discrete equations: what is left is Newton's tolerance
 IDENTITY = 1e-6
@@ -470,9 +472,9 @@ def test_the_residual_is_printed_and_in_results_json(chain):
 
 def test_there_is_a_picture_of_the_balance(chain, tmp_path):
     case, _ = chain
-    assert plots.energy(case, tmp_path / "energy.png")
+    assert curves.energy(case, tmp_path / "energy.png")
     assert (tmp_path / "energy.png").stat().st_size > 10_000
-    assert not plots.energy(tmp_path, tmp_path / "none.png")
+    assert not curves.energy(tmp_path, tmp_path / "none.png")
 
 
 def test_other_solvers_have_no_books(folder):

@@ -7,14 +7,15 @@ import shutil
 
 import numpy as np
 import pytest
-from bolus_validation import results
-from bolus_validation.foam_files import (
+from bolus_cases.synthetic import run, write_control, write_file
+from bolus_results import results
+from bolus_results.foam_files import (
     FoamFileError,
     read_faces,
     read_field,
     read_list,
 )
-from bolus_validation.synthetic import run, write_control, write_file
+from bolus_results.measure import Measure
 from test_results import broken_bolus
 
 
@@ -31,7 +32,7 @@ def ascii_run(tmp_path_factory):
 
 
 def collected(case):
-    found = results.collect(case, times=(1.0,))
+    found = results.collect(case, Measure((1.0,)))
     del found["case"]
     return found
 

@@ -6,10 +6,11 @@ import shutil
 
 import numpy as np
 import pytest
-from bolus_validation import plots, results
-from bolus_validation.fields import Case
-from bolus_validation.foam_files import FoamFileError
-from bolus_validation.synthetic import plane_mesh, wedge_mesh, write_file
+from bolus_cases.synthetic import plane_mesh, wedge_mesh, write_file
+from bolus_results import plots
+from bolus_results.fields import Case
+from bolus_results.foam_files import FoamFileError
+from bolus_results.state import state
 from matplotlib import image
 from scipy.spatial.transform import Rotation
 from test_results import broken_bolus
@@ -76,7 +77,7 @@ def straight(tmp_path_factory):
     """A broken bolus about x, with what is read of it."""
     case = tmp_path_factory.mktemp("straight") / "case"
     broken_bolus(case)
-    return case, results.state(Case(case), 1.0).numbers
+    return case, state(Case(case), 1.0).numbers
 
 
 def flat(numbers):
@@ -92,7 +93,7 @@ def flat(numbers):
 def test_results_do_not_depend_on_the_axis(straight, tmp_path, name):
     case, expected = straight
     turned = moved(case, tmp_path / "turned", *FRAMES[name])
-    found = flat(results.state(Case(turned), 1.0).numbers)
+    found = flat(state(Case(turned), 1.0).numbers)
     # Coordinates of up to 0.5 m in 16 digits: 1e-15 of cells of 1 mm
     assert found == pytest.approx(flat(expected), rel=1e-9, abs=1e-14)
     assert found["jetForward.value"] == pytest.approx(0.01)
@@ -127,7 +128,7 @@ def test_sections_and_pictures_do_not_depend_on_the_axis(
 def test_without_motility_the_wedge_tells_the_axis(straight, tmp_path, name):
     case, expected = straight
     turned = moved(case, tmp_path / "turned", *FRAMES[name], declared=False)
-    found = flat(results.state(Case(turned), 1.0).numbers)
+    found = flat(state(Case(turned), 1.0).numbers)
     assert found == pytest.approx(flat(expected), rel=1e-9, abs=1e-14)
 
 
@@ -136,7 +137,7 @@ def test_points_of_six_digits_tell_the_axis_too(straight, tmp_path):
     for declared in (True, False):
         target = tmp_path / f"turned{declared}"
         moved(case, target, *FRAMES["aside"], declared=declared, digits=6)
-        found = results.state(Case(target), 1.0)
+        found = state(Case(target), 1.0)
         # 5e-8 m, over the sine of 2.5 degrees, of a third of 10 mm
         for name in ("jetForward", "triaxialityMaxCore"):
             assert found[name] == pytest.approx(expected[name]["value"])

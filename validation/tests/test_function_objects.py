@@ -6,8 +6,7 @@ import shutil
 
 import numpy as np
 import pytest
-from bolus_validation.results import read_table
-from bolus_validation.synthetic import (
+from bolus_cases.synthetic import (
     HALF_ANGLE,
     laplacian_case,
     octant_mesh,
@@ -19,6 +18,7 @@ from bolus_validation.synthetic import (
     write_control,
     write_field,
 )
+from bolus_results.tables import read_table
 
 # Mesh and sums agree to round-off of some thousand additions, written with
 # ten digits

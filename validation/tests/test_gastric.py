@@ -16,9 +16,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from bolus_validation.fields import Case
+from bolus_results.fields import Case
+from bolus_results.tables import Table, read_table
 from bolus_validation.motility import Motility
-from bolus_validation.results import Table, read_table
 
 ROOT = Path(__file__).resolve().parents[2]
 CASE_A = ROOT / "tutorials" / "gastric" / "caseA"

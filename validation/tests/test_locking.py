@@ -11,15 +11,16 @@ import time
 from pathlib import Path
 
 import pytest
-from bolus_validation import page, plots, report, results, studies, summary
-from bolus_validation.locking import NAME, FolderBusy, alone_in
-from bolus_validation.synthetic import wedge_mesh
+from bolus_cases.synthetic import wedge_mesh
+from bolus_results import page, plots, results, summary
+from bolus_results.locking import NAME, FolderBusy, alone_in
+from bolus_validation import paper, studies
 
 STUDIES = Path(__file__).parents[1] / "studies"
 
 HOLD = """
 import sys, time
-from bolus_validation.locking import alone_in
+from bolus_results.locking import alone_in
 with alone_in(sys.argv[1]):
     print("held", flush=True)
     time.sleep(60)
@@ -86,7 +87,7 @@ def test_a_folder_of_which_the_caller_has_the_lock_is_free(
         pass
 
 
-@pytest.mark.parametrize("module", [results, plots, report, summary])
+@pytest.mark.parametrize("module", [results, plots, paper, summary])
 def test_commands_that_write_into_a_run_leave_a_living_one_alone(
     tmp_path, hold, capsys, module
 ):
@@ -111,7 +112,7 @@ def test_two_reports_do_not_mix_in_one_folder(tmp_path, hold, capsys):
 
 
 def test_a_folder_that_is_no_case_is_left_as_it_is(tmp_path, capsys):
-    for module in (results, plots, report, summary, page):
+    for module in (results, plots, paper, summary, page):
         assert module.main([str(tmp_path)]) == 1
         assert module.main([str(tmp_path / "missing")]) == 1
     assert not list(tmp_path.iterdir())

@@ -15,7 +15,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from bolus_validation.fields import Case
+from bolus_results.fields import Case
 from bolus_validation.gastric_causes import NARROWER, WIDER
 from bolus_validation.motility import Motility
 from scipy.interpolate import PchipInterpolator

@@ -4,10 +4,10 @@
 
 import numpy as np
 import pytest
-from bolus_validation.fields import Case
-from bolus_validation.foam_files import FoamFileError
-from bolus_validation.specimens import SLIDING, box, solve
-from bolus_validation.synthetic import run, run_parallel, write_field
+from bolus_cases.specimens import SLIDING, box, solve
+from bolus_cases.synthetic import run, run_parallel, write_field
+from bolus_results.fields import Case
+from bolus_results.foam_files import FoamFileError
 
 CELL = 1e-4
 CELLS = 200

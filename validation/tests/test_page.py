@@ -13,9 +13,9 @@ from html.parser import HTMLParser
 from pathlib import Path
 
 import pytest
-from bolus_validation import page
-from bolus_validation.foam_files import FoamFileError
-from bolus_validation.specimens import compression
+from bolus_cases.specimens import compression
+from bolus_results import page
+from bolus_results.foam_files import FoamFileError
 from matplotlib import image
 
 ROOT = Path(__file__).resolve().parents[2]

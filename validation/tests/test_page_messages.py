@@ -3,8 +3,8 @@
 """What a page tells of the messages of OpenFOAM's tools, without a run."""
 
 import pytest
-from bolus_validation import page
-from bolus_validation.synthetic import write_file
+from bolus_cases.synthetic import write_file
+from bolus_results import page
 
 HARMLESS = """
 --> FOAM Warning :

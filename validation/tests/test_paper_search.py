@@ -10,10 +10,11 @@ from concurrent.futures import Future
 
 import numpy as np
 import pytest
+from bolus_results import markdown
+from bolus_results.foam_files import FoamFileError
 from bolus_validation import paper_page, paper_score, paper_search, paper_sets
-from bolus_validation.foam_files import FoamFileError
 from bolus_validation.motility import PROFILE
-from bolus_validation.report import CASE_A
+from bolus_validation.paper import CASE_A
 from scipy.interpolate import PchipInterpolator
 
 PAPERS = {n: [t.paper, "", True] for n, t in paper_score.TARGETS.items()}
@@ -56,7 +57,7 @@ def test_what_never_happens_costs_more_than_what_is_late_and_is_finite():
 
 
 def test_numbers_at_the_ends_of_a_range_agree_as_in_the_comparison():
-    # The ranges are written twice, here as numbers: those that report.py has
+    # The ranges are written twice, here as numbers: those that paper.py has
     # in words must be the same
     for row, ends in (
         (CASE_A[8], (7.5, 30)),
@@ -213,9 +214,9 @@ def test_the_page_has_its_markers_once(tmp_path):
     page = tmp_path / "page.md"
     page.write_text("before\n" + paper_page.BEGIN + "\nold\n")
     with pytest.raises(FoamFileError, match="each once"):
-        paper_page.put(page, "new")
+        markdown.put(page, paper_page.BEGIN, paper_page.END, "new")
     page.write_text(page.read_text() + paper_page.END + "\nafter\n")
-    paper_page.put(page, "new")
+    markdown.put(page, paper_page.BEGIN, paper_page.END, "new")
     assert page.read_text().split() == (
         f"before {paper_page.BEGIN} new {paper_page.END} after".split()
     )

@@ -10,10 +10,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from bolus_validation import plots, report, results
-from bolus_validation.fields import Case
-from bolus_validation.foam_files import FoamFileError, read_field
-from bolus_validation.synthetic import (
+from bolus_cases.synthetic import (
     HALF_ANGLE,
     octant_mesh,
     plane_mesh,
@@ -21,6 +18,13 @@ from bolus_validation.synthetic import (
     write_field,
     write_file,
 )
+from bolus_results import curves, markdown, plots, results
+from bolus_results.fields import Case
+from bolus_results.foam_files import FoamFileError, read_field
+from bolus_results.measure import Measure, measure_of
+from bolus_results.state import state
+from bolus_results.tables import read_table
+from bolus_validation import paper
 from matplotlib import image
 
 REPOSITORY = Path(__file__).resolve().parents[2]
@@ -193,14 +197,14 @@ def test_fragments_are_told_apart_by_void_and_by_damage(
     tmp_path, gap, whole, intact
 ):
     broken_bolus(tmp_path, gap=gap)
-    bolus = results.state(Case(tmp_path), 1.0)
+    bolus = state(Case(tmp_path), 1.0)
     assert (bolus["pieces"], bolus["piecesIntact"]) == (whole, intact)
     assert (bolus["crumbs"], bolus["crumbsIntact"]) == (1, 1)
 
 
 def test_state_looks_at_bolus_only(tmp_path):
     broken_bolus(tmp_path)
-    bolus = results.state(Case(tmp_path), 1.0)
+    bolus = state(Case(tmp_path), 1.0)
     assert bolus["jetForward"] == pytest.approx(0.01)
     assert bolus["jetBackward"] == pytest.approx(0.02)
     assert bolus["epsilonPEqMax"] == 3
@@ -236,21 +240,21 @@ def test_a_continued_table_takes_the_place_of_the_rest(tmp_path):
     )
     with path.open("a") as cut:
         cut.write("7.0000")  # killed while writing
-    table = results.read_table(tmp_path, "w")
+    table = read_table(tmp_path, "w")
     assert table.time.tolist() == [0, 1, 2, 3, 4, 6]
     assert table["work"].tolist() == [0, 1, 2, 3, 400, 600]
     assert table.units == {"Time": "s", "work": "J"}
     assert table.at("work", 5) == 500
     assert table.at("work", 7) is None
     with pytest.raises(FoamFileError, match="no table"):
-        results.read_table(tmp_path, "nothing")
+        read_table(tmp_path, "nothing")
 
 
 def test_tables_of_nanoseconds_are_continued_and_read_alike(tmp_path):
     head = ("Time [s]", "work [J]")
     write_table(tmp_path, "w", "0", head, [(t * 1e-10, t) for t in range(6)])
     write_table(tmp_path, "w", "3e-10", head, [(4e-10, 40), (5e-10, 50)])
-    table = results.read_table(tmp_path, "w")
+    table = read_table(tmp_path, "w")
     assert table["work"].tolist() == [0, 1, 2, 3, 40, 50]
     assert table.at("work", 4.5e-10) == pytest.approx(45)
     assert table.at("work", 6e-10) is None
@@ -417,7 +421,7 @@ def run_as_in_the_paper(tmp_path_factory):
     """The case, with its results.json."""
     case = tmp_path_factory.mktemp("run") / "caseA"
     paper_run(case)
-    results.write_json(case)
+    results.write_json(case, paper.MEASURE)
     return case
 
 
@@ -436,63 +440,72 @@ def test_results_json_has_final_and_peak_values_with_units(run_as_in_the_paper):
     assert "23" not in found["times"]  # was not written
 
 
+def test_a_run_of_any_case_is_measured_at_its_own_times(run_as_in_the_paper):
+    found = results.collect(run_as_in_the_paper)
+    written = [t for t in Case(run_as_in_the_paper).times if t > 0]
+    assert list(found["times"]) == [f"{t:g}" for t in written][:10]
+    assert "retainedOfReference" not in found["results"]["retainedMass"]
+    kept = measure_of(run_as_in_the_paper)
+    assert kept == paper.MEASURE != Measure()
+
+
 def test_a_run_that_does_as_the_paper_says_agrees_in_every_row(
     run_as_in_the_paper,
 ):
-    text = report.comparison(run_as_in_the_paper)
+    text = paper.comparison(run_as_in_the_paper)
     rows = [line.split(" | ") for line in text.splitlines() if "| " in line]
-    verdicts = [row[-1].rstrip(" |") for row in rows[1:]]
-    assert len(verdicts) == len(report.CASE_A)
+    verdicts = [row[-1].rstrip(" |") for row in rows[2:]]
+    assert len(verdicts) == len(paper.CASE_A)
     assert verdicts == ["yes"] * len(verdicts), text
     assert "32 s simulated on 800 cells, 3 steps, 20.5 s on 2 core" in text
 
 
 def test_a_run_that_does_otherwise_is_said_to(run_as_in_the_paper, tmp_path):
     """The same run with the comparison's numbers changed one by one."""
-    run = report.Run(run_as_in_the_paper)
+    run = paper.Run(run_as_in_the_paper)
     times = run.results["times"]
 
     def verdict(find):
         return find(run)[1]
 
     times["7.5"]["triaxialityMaxCore"]["value"] = 0.6
-    assert verdict(report._core_triaxiality) is False
+    assert verdict(paper._core_triaxiality) is False
     del times["7.5"]["triaxialityMaxCore"]
-    assert report._core_triaxiality(run) == ("no loaded bolus there", False)
+    assert paper._core_triaxiality(run) == ("no loaded bolus there", False)
     del run.results["results"]["damagedVolume"]["firstDamage"]
-    assert report._first_damage(run) == ("no damage until 32 s", False)
+    assert paper._first_damage(run) == ("no damage until 32 s", False)
     times["10.5"]["pieces"]["value"] = 1
-    assert verdict(report._fragments) == "in part"
-    assert verdict(report._sticking) is False
+    assert verdict(paper._fragments) == "in part"
+    assert verdict(paper._sticking) is False
     times["10.5"]["piecesIntact"]["value"] = 1
-    assert verdict(report._fragments) is False
+    assert verdict(paper._fragments) is False
     times["12.5"]["jetBackward"]["value"] = 0.005
-    assert verdict(report._jet("jetBackward")) is False
+    assert verdict(paper._jet("jetBackward")) is False
     times["12.5"]["triaxialityMinIntact"]["value"] = -2
-    assert verdict(report._compression) is False
+    assert verdict(paper._compression) is False
 
 
 def test_what_a_run_did_not_reach_is_neither_right_nor_wrong(tmp_path):
     wedge_mesh(tmp_path, 0.04, 0.02, 4, 2)
-    results.write_json(tmp_path)
-    run = report.Run(tmp_path)
-    for row in report.CASE_A:
-        assert row.find(run) == report.NOTHING, row.paper
-    assert "23 cannot be told" in report.comparison(tmp_path)
+    results.write_json(tmp_path, paper.MEASURE)
+    run = paper.Run(tmp_path)
+    for row in paper.CASE_A:
+        assert row.find(run) == paper.NOTHING, row.paper
+    assert "23 cannot be told" in paper.comparison(tmp_path)
 
 
 def test_comparison_goes_between_the_markers_and_nowhere_else(tmp_path):
     readme = tmp_path / "README.md"
-    text = f"before\n{report.BEGIN}\nold\n{report.END}\nafter\n"
+    text = f"before\n{paper.BEGIN}\nold\n{paper.END}\nafter\n"
     readme.write_text(text)
-    report.put_between_markers(readme, "new")
+    markdown.put(readme, paper.BEGIN, paper.END, "new")
     once = readme.read_text()
-    assert once == f"before\n{report.BEGIN}\n\nnew\n{report.END}\nafter\n"
-    report.put_between_markers(readme, "new")
+    assert once == f"before\n{paper.BEGIN}\n\nnew\n\n{paper.END}\nafter\n"
+    markdown.put(readme, paper.BEGIN, paper.END, "new")
     assert readme.read_text() == once
     readme.write_text("no markers")
     with pytest.raises(FoamFileError, match="each once"):
-        report.put_between_markers(readme, "new")
+        markdown.put(readme, paper.BEGIN, paper.END, "new")
 
 
 def test_contours_show_the_bolus_mirrored_and_nothing_elsewhere(tmp_path):
@@ -527,13 +540,13 @@ def test_a_page_without_written_fields_is_not_drawn(tmp_path):
     target = tmp_path / "page.png"
     quantity = plots.BOLUS_FIELDS[0]
     assert not plots.contour_page(Case(tmp_path), quantity, target, (5.0,))
-    assert not plots.curves([tmp_path], target)
+    assert not curves.curves([tmp_path], target)
     assert not target.exists()
 
 
 def test_scripts_results_makes_everything_in_one_command(run_as_in_the_paper):
     readme = run_as_in_the_paper / "README.md"
-    readme.write_text(f"# Case\n{report.BEGIN}\n{report.END}\n")
+    readme.write_text(f"# Case\n{paper.BEGIN}\n{paper.END}\n")
     done = subprocess.run(
         [
             REPOSITORY / "scripts" / "results",
@@ -550,17 +563,17 @@ def test_scripts_results_makes_everything_in_one_command(run_as_in_the_paper):
     made = [Path(line).name for line in done.stdout.splitlines()]
     assert made == [
         "results.json",
+        "comparison.md",
+        "README.md",
         "sigmaEq.png",
         "triaxiality.png",
         "epsilonPEq.png",
         "D.png",
         "overview.png",
         "curves.png",
-        "comparison.md",
-        "README.md",
         "summary.txt",
     ]
-    for name in made[1:7]:
+    for name in made[3:9]:
         shape = image.imread(run_as_in_the_paper / "pictures" / name).shape
         assert min(shape[:2]) > 300
     assert "23 rows agree" in readme.read_text()

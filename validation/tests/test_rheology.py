@@ -8,10 +8,12 @@ default strain increment of 1e-5 stays below it by a factor of 7 (first order).
 
 import os
 import re
+import subprocess
 from pathlib import Path
 
 import numpy as np
 import pytest
+from bolus_results.material_point import read_segments, run_material_point
 from bolus_validation import rheology as theory
 
 COMMON = Path(__file__).parents[2] / "tutorials" / "common"
@@ -58,9 +60,9 @@ def dictionary(properties, segments, extra="", override=""):
 
 def run(folder, *args, **options):
     """Segments of the table that materialPoint makes of a dictionary."""
-    done = theory.run_material_point(dictionary(*args, **options), folder)
+    done = run_material_point(dictionary(*args, **options), folder)
     assert done.returncode == 0, done.stderr + done.stdout
-    return theory.read_table(Path(folder) / "point.dat")
+    return read_segments(Path(folder) / "point.dat")
 
 
 def assert_within(actual, expected, tolerance=1e-3, floor=0.02):
@@ -292,7 +294,7 @@ def test_return_mapping_holds_from_1e_6_to_1e6_per_second(
 ):
     # Steps of 1e-9 s to 1e5 s; the plateau is the flow stress
     (tmp_path / "law").write_text("")
-    done = theory.run_material_point(
+    done = run_material_point(
         f"""
         bolusProperties
         {{
@@ -307,7 +309,7 @@ def test_return_mapping_holds_from_1e_6_to_1e6_per_second(
         tmp_path,
     )
     assert done.returncode == 0, done.stderr
-    load = theory.read_table(tmp_path / "point.dat")["load"]
+    load = read_segments(tmp_path / "point.dat")["load"]
 
     words = dict(re.findall(r"(\w+) ([\d.e+-]+);", law))
     if "HerschelBulkley" in law:
@@ -604,7 +606,7 @@ TABLE_ENTRIES = "type tabulated; table ((0 4100) (0.01 7000));"
 )
 def test_bad_input_dies_with_one_clear_error(tmp_path, old, new, says):
     assert old in GOOD
-    done = theory.run_material_point(GOOD.replace(old, new, 1), tmp_path)
+    done = run_material_point(GOOD.replace(old, new, 1), tmp_path)
     message = " ".join(done.stderr.split())
 
     assert done.returncode != 0
@@ -616,13 +618,13 @@ def test_bad_input_dies_with_one_clear_error(tmp_path, old, new, says):
 
 def test_good_input_passes(tmp_path):
     # The base of the bad ones
-    assert theory.run_material_point(GOOD, tmp_path).returncode == 0
+    assert run_material_point(GOOD, tmp_path).returncode == 0
 
 
 def test_missing_file_is_named(tmp_path):
-    done = theory.run_material_point(GOOD, tmp_path)
+    done = run_material_point(GOOD, tmp_path)
     os.remove(tmp_path / "point")
-    done = theory.subprocess.run(
+    done = subprocess.run(
         ["materialPoint", "-dict", "nowhere/atAll"],
         cwd=tmp_path,
         capture_output=True,

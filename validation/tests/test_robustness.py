@@ -6,10 +6,10 @@ import os
 import random
 
 import pytest
+from bolus_cases.specimens import prepare_compression, replace
+from bolus_cases.synthetic import run
 from bolus_validation import robustness as rough
 from bolus_validation.robustness_cases import BASES, kill_test
-from bolus_validation.specimens import prepare_compression, replace
-from bolus_validation.synthetic import run
 
 
 @pytest.mark.parametrize("law", ["viscoplasticDamage", "HerschelBulkley"])

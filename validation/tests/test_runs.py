@@ -15,15 +15,15 @@ import time
 
 import numpy as np
 import pytest
-from bolus_validation.fields import read_mesh
-from bolus_validation.results import read_table
-from bolus_validation.specimens import prepare_compression, replace
-from bolus_validation.synthetic import (
+from bolus_cases.specimens import prepare_compression, replace
+from bolus_cases.synthetic import (
     run,
     run_parallel,
     write_field,
     write_laplacian_motion,
 )
+from bolus_results.fields import read_mesh
+from bolus_results.tables import read_table
 
 
 @pytest.fixture(scope="module")

@@ -3,9 +3,9 @@
 """Foods of any strength and tests of any speed: what is artificial follows."""
 
 import pytest
-from bolus_validation.results import read_table
-from bolus_validation.specimens import Compression, prepare_compression, replace
-from bolus_validation.synthetic import run, write_file
+from bolus_cases.specimens import Compression, prepare_compression, replace
+from bolus_cases.synthetic import run, write_file
+from bolus_results.tables import read_table
 
 # Flow stress [Pa] at strain rates [1/s]: that of tutorials/common
 TABLE = ((0, 4100), (0.01, 7000), (0.1, 9600), (1, 15200))

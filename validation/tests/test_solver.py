@@ -11,11 +11,7 @@ import shutil
 
 import numpy as np
 import pytest
-from bolus_validation import rheology
-from bolus_validation.fields import Case
-from bolus_validation.physics import objectivity
-from bolus_validation.results import read_table
-from bolus_validation.specimens import (
+from bolus_cases.specimens import (
     HEIGHT,
     SLIDING,
     box,
@@ -25,9 +21,12 @@ from bolus_validation.specimens import (
     rub,
     run_case,
     solve,
-    solve_in_two,
 )
-from bolus_validation.synthetic import run
+from bolus_cases.synthetic import run, run_parallel
+from bolus_results.fields import Case
+from bolus_results.tables import read_table
+from bolus_validation import rheology
+from bolus_validation.physics import objectivity
 
 RATES = [0.01, 0.1, 1.0]
 
@@ -256,7 +255,7 @@ def test_schwarz_gives_the_answer_of_the_direct_solver(
     if ranks == 1:
         run(case, "bolusFoam")
     else:
-        solve_in_two(case)
+        run_parallel(case, "bolusFoam")
     assert pressed.max() > 0.1
     assert wall_force(case) == pytest.approx(pressed, rel=1e-5)
 

@@ -4,9 +4,7 @@
 
 import numpy as np
 import pytest
-from bolus_validation.fields import Case
-from bolus_validation.results import read_table
-from bolus_validation.specimens import (
+from bolus_cases.specimens import (
     HEIGHT,
     box,
     compression,
@@ -15,6 +13,8 @@ from bolus_validation.specimens import (
     rub,
     solve,
 )
+from bolus_results.fields import Case
+from bolus_results.tables import read_table
 
 
 @pytest.fixture(scope="session")

@@ -4,14 +4,14 @@
 
 import numpy as np
 import pytest
-from bolus_validation import rheology
-from bolus_validation.results import read_table
-from bolus_validation.specimens import (
+from bolus_cases.specimens import (
     box,
     compression,
     ramp,
     solve,
 )
+from bolus_results.tables import read_table
+from bolus_validation import rheology
 
 # Coarse, and still fine across the free surface, where it matters
 COARSE = {"nAxial": 10, "nRadial": 52}

@@ -7,13 +7,13 @@ import shutil
 
 import numpy as np
 import pytest
-from bolus_validation.results import read_table
-from bolus_validation.specimens import (
+from bolus_cases.specimens import (
     box,
     prepare_compression,
     replace,
 )
-from bolus_validation.synthetic import run, write_field
+from bolus_cases.synthetic import run, write_field
+from bolus_results.tables import read_table
 
 
 @pytest.fixture(scope="session")

@@ -5,7 +5,7 @@
 import re
 
 import pytest
-from bolus_validation.specimens import ROOT
+from bolus_cases.specimens import ROOT
 
 SOURCES = [
     path

@@ -9,14 +9,14 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from bolus_cases.specimens import prepare_compression
+from bolus_cases.synthetic import run
+from bolus_results.profiling import PHASES, phases, read_profile
+from bolus_results.results import write_json
+from bolus_results.summary import summary
 from bolus_validation import gastric_study, speed_study, stock
-from bolus_validation.profiling import PHASES, phases, read_profile
-from bolus_validation.results import write_json
-from bolus_validation.specimens import prepare_compression
 from bolus_validation.speed_study import stock_wire
 from bolus_validation.studies import REGISTRY, ROOT
-from bolus_validation.summary import summary
-from bolus_validation.synthetic import run
 
 
 @pytest.fixture(scope="module")

@@ -9,9 +9,9 @@ import subprocess
 from pathlib import Path
 
 import pytest
-from bolus_validation.results import read_table
-from bolus_validation.specimens import compression, run_case
-from bolus_validation.synthetic import run
+from bolus_cases.specimens import compression, run_case
+from bolus_cases.synthetic import run
+from bolus_results.tables import read_table
 
 ROOT = Path(__file__).resolve().parents[2]
 

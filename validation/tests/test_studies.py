@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 from bolus_validation import studies
+from test_page import Strict
 
 
 @pytest.mark.parametrize(
@@ -18,7 +19,7 @@ from bolus_validation import studies
         ("tutorials/common/bolus", True, True),
         ("tutorials/cutting/wire2D/system/fvSolution", True, False),
         ("tutorials/gastric/caseA/system/fvSolution", False, True),
-        ("validation/bolus_validation/cutting.py", True, False),
+        ("validation/bolus_cases/cutting.py", True, False),
         ("tutorials/gastric/caseA/README.md", False, False),
     ],
 )
@@ -89,3 +90,26 @@ def test_what_the_mutations_break_is_in_the_sources_once():
         if (module.ROOT / m.file).read_text().count(m.old) != 1
     ]
     assert lost == []
+
+
+def test_the_page_of_studies_is_well_formed_and_shows_what_is_missing(tmp_path):
+    @studies.study("page", "G", "One < another", "itself")
+    def found(folder, quick):
+        found = studies.Findings(remarks=["x & y"], picture="a.png")
+        found.row("a < b", "Pa", float("nan"), 2.0, 0.1)
+        found.row("told", "-", 1.0)
+        found.order("rest", [2, 1], [0.4, 0.1], 1)
+        return found
+
+    try:
+        result = studies._run_one("page", tmp_path / "page", "key")
+        studies._write_page(tmp_path, "all", "All & more", {"page": result})
+    finally:
+        del studies.REGISTRY["page"]
+    text = (tmp_path / "all.html").read_text()
+    parser = Strict()
+    parser.feed(text)
+    assert not parser.open
+    assert "One < another" in parser.words and "x & y" in parser.words
+    assert [i["src"] for i in parser.images] == ["page/a.png"]
+    assert "2.00" in parser.words and "no" in parser.words

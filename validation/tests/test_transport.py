@@ -9,18 +9,17 @@ long as the others, so that only they are fast.
 
 import numpy as np
 import pytest
-from bolus_validation.fields import Case
-from bolus_validation.results import read_table
-from bolus_validation.specimens import (
+from bolus_cases.specimens import (
     GRIPPING,
     SLIDING,
     box,
     ramp,
     replace,
     solve,
-    solve_in_two,
 )
-from bolus_validation.synthetic import run, write_field
+from bolus_cases.synthetic import run, run_parallel, write_field
+from bolus_results.fields import Case
+from bolus_results.tables import read_table
 
 LENGTH, HEIGHT = 0.030, 0.005  # of the channel [m]
 BAR = (0.008, 0.0025)  # [m]
@@ -94,7 +93,7 @@ def push(
         solve(case)
     else:
         # Through the middle of the narrow columns
-        solve_in_two(case)
+        run_parallel(case, "bolusFoam")
         run(case, "reconstructPar", "-latestTime")
     return case
 

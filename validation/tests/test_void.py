@@ -3,8 +3,8 @@
 """What the void does in broken bolus."""
 
 import pytest
-from bolus_validation.results import read_table
-from bolus_validation.specimens import GRIPPING, box, ramp, solve
+from bolus_cases.specimens import GRIPPING, box, ramp, solve
+from bolus_results.tables import read_table
 
 LENGTH = 0.01  # of a column of broken bolus [m]
 CELLS = 20

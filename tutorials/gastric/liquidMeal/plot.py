@@ -6,7 +6,7 @@ import json
 
 import matplotlib.pyplot as plt
 import numpy as np
-from bolus_validation.fields import Case
+from bolus_results.fields import Case
 
 
 def shear_rate(gradient):

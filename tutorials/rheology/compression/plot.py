@@ -8,7 +8,7 @@ from pathlib import Path
 import matplotlib.pyplot as plt
 import numpy as np
 from bolus_validation import rheology
-from bolus_validation.results import read_table
+from bolus_results.tables import read_table
 
 HEIGHT = 0.020  # [m]
 

@@ -4,7 +4,7 @@
 
 import matplotlib.pyplot as plt
 import numpy as np
-from bolus_validation.rheology import read_table
+from bolus_results.material_point import read_segments
 
 LAWS = ("viscoplastic", "HerschelBulkley", "JLaw")
 RATES = ("0.01", "0.1", "1")
@@ -16,7 +16,7 @@ def main():
 
     for axis, law in zip(axes[0], LAWS, strict=True):
         for i, rate in enumerate(RATES):
-            table = read_table(f"tables/{law}.compression.{rate}")
+            table = read_segments(f"tables/{law}.compression.{rate}")
             for name in ("compression", "relaxation", "unloading"):
                 axis.plot(
                     -table[name]["axialStrain"],
@@ -24,7 +24,7 @@ def main():
                     color=f"C{i}",
                     label=f"{rate}/s" if name == "compression" else None,
                 )
-            shear = read_table(f"tables/{law}.shear.{rate}")["shear"]
+            shear = read_segments(f"tables/{law}.shear.{rate}")["shear"]
             axis.plot(
                 shear["shearStrain"] / np.sqrt(3),
                 shear["shearStress"] * np.sqrt(3) / 1e3,
@@ -40,7 +40,7 @@ def main():
 
     axis = axes[1, 0]
     for i, rate in enumerate(RATES):
-        hold = read_table(f"tables/viscoplastic.compression.{rate}")[
+        hold = read_segments(f"tables/viscoplastic.compression.{rate}")[
             "relaxation"
         ]
         axis.semilogx(
@@ -56,7 +56,7 @@ def main():
     )
     axis.legend()
 
-    table = read_table("tables/fracture")
+    table = read_segments("tables/fracture")
     for axis, names, title in (
         (axes[1, 1], ("tension", "closing"), "fracture in tension"),
         (axes[1, 2], ("pressing", "pulling"), "the fragments in a rigid die"),

@@ -6,17 +6,8 @@ import re
 import shutil
 from pathlib import Path
 
-import matplotlib
-
-matplotlib.use("Agg")
-
-import numpy as np  # noqa: E402
-from matplotlib import pyplot as plt  # noqa: E402
-from matplotlib.collections import PolyCollection  # noqa: E402
-
-from bolus_validation.fields import Case  # noqa: E402
-from bolus_validation.results import read_table  # noqa: E402
-from bolus_validation.specimens import (  # noqa: E402
+import numpy as np
+from bolus_cases.specimens import (
     ROOT,
     SLIDING,
     box,
@@ -24,16 +15,21 @@ from bolus_validation.specimens import (  # noqa: E402
     rub,
     solve,
 )
-from bolus_validation.studies import Findings, study  # noqa: E402
-from bolus_validation.synthetic import (  # noqa: E402
+from bolus_cases.synthetic import (
     run as execute,
 )
-from bolus_validation.synthetic import (
+from bolus_cases.synthetic import (
     write_blocks,
     write_field,
     write_file,
     write_motion_fields,
 )
+from bolus_results.fields import Case
+from bolus_results.tables import read_table
+from matplotlib import pyplot as plt
+from matplotlib.collections import PolyCollection
+
+from bolus_validation.studies import Findings, study
 
 # Converging tube: lengths of container, cone and land [m], radii [m], half
 # angle of the cone [rad], way and speed of the piston [m, m/s]
@@ -75,30 +71,28 @@ def push_through(case: Path, mu: float, cell: float, step: float):
     half = np.radians(2.5)
     ends = np.cumsum([0, CONTAINER, CONE, LAND])
     radii = (WIDE, WIDE, NARROW, NARROW)
-    vertices = "".join(f"({x:.12g} 0 0)\n" for x in ends) + "".join(
-        f"({x:.12g} {r * np.cos(half):.12g} {s * r * np.sin(half):.12g})\n"
+    vertices = [(x, 0, 0) for x in ends] + [
+        (x, r * np.cos(half), s * r * np.sin(half))
         for s in (-1, 1)
         for x, r in zip(ends, radii, strict=True)
-    )
+    ]
     across = round(WIDE / cell)
-    blocks, names = "", ("container", "cone", "land")
-    patches = {"front": ["wedge", ""], "back": ["wedge", ""]}
-    axis = ""
+    blocks, names = [], ("container", "cone", "land")
+    patches = {"front": ("wedge", []), "back": ("wedge", [])}
+    axis = []
     for i, name in enumerate(names):
         along = round((ends[i + 1] - ends[i]) / cell)
         a, b, front, back = i, i + 1, 4 + i, 8 + i
-        blocks += (
-            f"hex ({a} {b} {front + 1} {front} {a} {b} {back + 1} {back}) "
-            f"({along} {across} 1) simpleGrading (1 1 1)\n"
-        )
-        patches["front"][1] += f"({a} {front} {front + 1} {b})"
-        patches["back"][1] += f"({a} {b} {back + 1} {back})"
-        patches[name] = ["wall", f"({front} {back} {back + 1} {front + 1})"]
-        axis += f"({a} {b} {b} {a})"
+        corners = (a, b, front + 1, front, a, b, back + 1, back)
+        blocks.append((corners, (along, across, 1)))
+        patches["front"][1].append((a, front, front + 1, b))
+        patches["back"][1].append((a, b, back + 1, back))
+        patches[name] = "wall", [(front, back, back + 1, front + 1)]
+        axis.append((a, b, b, a))
     patches |= {
-        "piston": ["wall", "(0 8 4 0)"],
-        "outlet": ["patch", "(3 7 11 3)"],
-        "axis": ["empty", axis],
+        "piston": ("wall", [(0, 8, 4, 0)]),
+        "outlet": ("patch", [(3, 7, 11, 3)]),
+        "axis": ("empty", axis),
     }
     write_blocks(case, vertices, blocks, patches)
     still = "type fixedValue; value uniform (0 0 0);"

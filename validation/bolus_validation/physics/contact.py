@@ -4,17 +4,8 @@
 
 from pathlib import Path
 
-import matplotlib
-
-matplotlib.use("Agg")
-
-import numpy as np  # noqa: E402
-from matplotlib import pyplot as plt  # noqa: E402
-
-from bolus_validation import rheology  # noqa: E402
-from bolus_validation.fields import Case  # noqa: E402
-from bolus_validation.results import read_table  # noqa: E402
-from bolus_validation.specimens import (  # noqa: E402
+import numpy as np
+from bolus_cases.specimens import (
     HEIGHT,
     SLIDING,
     box,
@@ -24,7 +15,12 @@ from bolus_validation.specimens import (  # noqa: E402
     rub,
     solve,
 )
-from bolus_validation.studies import Findings, study  # noqa: E402
+from bolus_results.fields import Case
+from bolus_results.tables import read_table
+from matplotlib import pyplot as plt
+
+from bolus_validation import rheology
+from bolus_validation.studies import Findings, study
 
 STICKING = "type contactWall; friction { type noSlip; }"
 

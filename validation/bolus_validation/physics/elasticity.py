@@ -10,9 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-
-from bolus_validation.fields import Case
-from bolus_validation.physics.cases import (
+from bolus_cases.mapped import (
     ELASTIC,
     GRIP,
     STILL,
@@ -27,9 +25,11 @@ from bolus_validation.physics.cases import (
     picture,
     radial,
 )
-from bolus_validation.results import read_table
+from bolus_cases.synthetic import HALF_ANGLE
+from bolus_results.fields import Case
+from bolus_results.tables import read_table
+
 from bolus_validation.studies import Findings, study
-from bolus_validation.synthetic import HALF_ANGLE
 
 A, B = 0.005, 0.010  # inner and outer radius [m]
 E = 100e3  # [Pa]

@@ -10,12 +10,14 @@ void, are columns of their own, which must vanish with them.
 from pathlib import Path
 
 import numpy as np
+from bolus_cases.mapped import picture
+from bolus_cases.specimens import compression
+from bolus_results import curves
+from bolus_results.results import ARTIFICIAL, energy_shares
+from bolus_results.tables import read_table
 
-from bolus_validation import plots, rheology
-from bolus_validation.physics.cases import picture
+from bolus_validation import rheology
 from bolus_validation.physics.sensitivity import TUTORIAL, gastric_run
-from bolus_validation.results import ARTIFICIAL, energy_shares, read_table
-from bolus_validation.specimens import compression
 from bolus_validation.studies import Findings, energy_residual, study
 
 RATE = 0.1  # of the tutorial [1/s]
@@ -125,6 +127,6 @@ def gastric(folder: Path, quick: bool) -> Findings:
         "Debris is the viscosity that broken bolus is given because it would "
         "else be a fluid without any: artificial, but in no limit of its own."
     )
-    plots.energy(case, folder / "energy.png")
+    curves.energy(case, folder / "energy.png")
     found.picture = "energy.png"
     return found

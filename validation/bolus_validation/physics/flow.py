@@ -16,11 +16,7 @@ parts of yield stress/length. A pipe of 5 radii is off by 2 %.
 from pathlib import Path
 
 import numpy as np
-from scipy.integrate import cumulative_trapezoid
-from scipy.optimize import brentq
-
-from bolus_validation import rheology
-from bolus_validation.physics.cases import (
+from bolus_cases.mapped import (
     OPEN,
     STICK,
     SYMMETRY,
@@ -30,6 +26,10 @@ from bolus_validation.physics.cases import (
     material,
     picture,
 )
+from scipy.integrate import cumulative_trapezoid
+from scipy.optimize import brentq
+
+from bolus_validation import rheology
 from bolus_validation.studies import Findings, study
 
 RADIUS = 0.005  # [m]

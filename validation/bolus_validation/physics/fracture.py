@@ -4,18 +4,8 @@
 
 from pathlib import Path
 
-import matplotlib
-
-matplotlib.use("Agg")
-
-import numpy as np  # noqa: E402
-from matplotlib import pyplot as plt  # noqa: E402
-from matplotlib.collections import PolyCollection  # noqa: E402
-
-from bolus_validation import rheology  # noqa: E402
-from bolus_validation.fields import Case  # noqa: E402
-from bolus_validation.results import read_table  # noqa: E402
-from bolus_validation.specimens import (  # noqa: E402
+import numpy as np
+from bolus_cases.specimens import (
     box,
     compression,
     prepare_compression,
@@ -23,10 +13,16 @@ from bolus_validation.specimens import (  # noqa: E402
     replace,
     solve,
 )
-from bolus_validation.studies import Findings, study  # noqa: E402
-from bolus_validation.synthetic import (
+from bolus_cases.synthetic import (
     write_field,
 )
+from bolus_results.fields import Case
+from bolus_results.tables import read_table
+from matplotlib import pyplot as plt
+from matplotlib.collections import PolyCollection
+
+from bolus_validation import rheology
+from bolus_validation.studies import Findings, study
 
 # Onset of the common material
 ONSET = 0.25

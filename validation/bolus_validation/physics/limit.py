@@ -5,8 +5,7 @@
 from pathlib import Path
 
 import numpy as np
-
-from bolus_validation.physics.cases import (
+from bolus_cases.mapped import (
     OPEN,
     STICK,
     SYMMETRY,
@@ -20,6 +19,7 @@ from bolus_validation.physics.cases import (
     perfect,
     picture,
 )
+
 from bolus_validation.studies import Findings, study
 
 # Shear strength [Pa] and its von Mises stress; time of the push [s]

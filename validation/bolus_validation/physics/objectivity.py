@@ -5,9 +5,7 @@
 from pathlib import Path
 
 import numpy as np
-
-from bolus_validation import rheology
-from bolus_validation.physics.cases import (
+from bolus_cases.mapped import (
     GRIP,
     STICK,
     Side,
@@ -16,6 +14,8 @@ from bolus_validation.physics.cases import (
     material,
     picture,
 )
+
+from bolus_validation import rheology
 from bolus_validation.studies import Findings, study
 
 SIZE = 0.01  # of the block [m]

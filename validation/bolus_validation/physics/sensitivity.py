@@ -15,20 +15,17 @@ with the next one.
 import json
 from pathlib import Path
 
-import matplotlib
+import matplotlib.pyplot as plt
 import numpy as np
+from bolus_cases.synthetic import run
+from bolus_results.tables import read_table
 
-matplotlib.use("Agg")
-import matplotlib.pyplot as plt  # noqa: E402
-
-from bolus_validation.results import read_table  # noqa: E402
-from bolus_validation.studies import (  # noqa: E402
+from bolus_validation.studies import (
     ROOT,
     Findings,
     kept_run,
     study,
 )
-from bolus_validation.synthetic import run  # noqa: E402
 
 CASE = "gastric/caseA"
 COARSE = {

@@ -4,22 +4,8 @@
 
 from pathlib import Path
 
-import matplotlib
-
-matplotlib.use("Agg")
-
-import numpy as np  # noqa: E402
-from matplotlib import pyplot as plt  # noqa: E402
-
-from bolus_validation.fields import Case  # noqa: E402
-from bolus_validation.physics.fracture import (  # noqa: E402
-    first,
-    monitor_damage,
-    paint,
-    write_each,
-)
-from bolus_validation.results import read_table  # noqa: E402
-from bolus_validation.specimens import (  # noqa: E402
+import numpy as np
+from bolus_cases.specimens import (
     GRIPPING,
     SLIDING,
     box,
@@ -27,12 +13,22 @@ from bolus_validation.specimens import (  # noqa: E402
     replace,
     solve,
 )
-from bolus_validation.studies import Findings, study  # noqa: E402
-from bolus_validation.synthetic import (
+from bolus_cases.synthetic import (
     write_blocks,
     write_field,
     write_motion_fields,
 )
+from bolus_results.fields import Case
+from bolus_results.tables import read_table
+from matplotlib import pyplot as plt
+
+from bolus_validation.physics.fracture import (
+    first,
+    monitor_damage,
+    paint,
+    write_each,
+)
+from bolus_validation.studies import Findings, study
 
 
 def fill(case: Path, inside) -> None:
@@ -285,33 +281,32 @@ def punched(
             (k, j, i) for k in range(2) for j in range(3) for i in range(3)
         )
     }
-    vertices = "".join(
-        f"({xs[i]:.9g} {ys[j]:.9g} {0.01 * k:g})\n"
-        for (i, j, k) in sorted(number, key=number.get)
-    )
+    vertices = [(xs[i], ys[j], 0.01 * k) for i, j, k in number]
 
     def side(i0, j0, i1, j1):
         """A face over the edge from (i0, j0) to (i1, j1)."""
         ends = ((i0, j0, 0), (i1, j1, 0), (i1, j1, 1), (i0, j0, 1))
-        return "(" + " ".join(str(number[e]) for e in ends) + ")"
+        return tuple(number[e] for e in ends)
 
     def square(i, j, k):
         ends = ((i, j, k), (i + 1, j, k), (i + 1, j + 1, k), (i, j + 1, k))
-        return "(" + " ".join(str(number[e]) for e in ends) + ")"
+        return tuple(number[e] for e in ends)
 
-    blocks, flats = "", ""
+    blocks, flats = [], []
     for i, j in ((0, 0), (1, 0), (1, 1)):
         n = [round((s[m + 1] - s[m]) / cell) for s, m in ((xs, i), (ys, j))]
-        corners = (square(i, j, 0) + " " + square(i, j, 1)).replace(") (", " ")
-        blocks += f"hex {corners} ({n[0]} {n[1]} 1) simpleGrading (1 1 1)\n"
-        flats += square(i, j, 0) + " " + square(i, j, 1)
+        blocks.append((square(i, j, 0) + square(i, j, 1), (*n, 1)))
+        flats += square(i, j, 0), square(i, j, 1)
     patches = {
-        "left": ("symmetryPlane", side(0, 0, 0, 1)),
-        "bottom": ("symmetryPlane", side(0, 0, 1, 0) + side(1, 0, 2, 0)),
-        "right": ("patch", side(2, 0, 2, 1) + side(2, 1, 2, 2)),
-        "top": ("patch", side(1, 2, 2, 2)),
-        "punch": ("wall", side(0, 1, 1, 1)),
-        "punchSide": ("wall", side(1, 1, 1, 2)),
+        "left": ("symmetryPlane", [side(0, 0, 0, 1)]),
+        "bottom": (
+            "symmetryPlane",
+            [side(0, 0, 1, 0), side(1, 0, 2, 0)],
+        ),
+        "right": ("patch", [side(2, 0, 2, 1), side(2, 1, 2, 2)]),
+        "top": ("patch", [side(1, 2, 2, 2)]),
+        "punch": ("wall", [side(0, 1, 1, 1)]),
+        "punchSide": ("wall", [side(1, 1, 1, 2)]),
         "flat": ("empty", flats),
     }
     write_blocks(case, vertices, blocks, patches)

@@ -5,15 +5,12 @@
 from itertools import product
 from pathlib import Path
 
-import matplotlib
 import numpy as np
+from bolus_cases.specimens import compression
+from bolus_results.fields import Case
+from matplotlib import pyplot as plt
 
-matplotlib.use("Agg")
-from matplotlib import pyplot as plt  # noqa: E402
-
-from bolus_validation.fields import Case  # noqa: E402
-from bolus_validation.specimens import compression  # noqa: E402
-from bolus_validation.studies import Findings, study  # noqa: E402
+from bolus_validation.studies import Findings, study
 
 AXIAL, RADIAL = (8, 10, 12), (40, 44, 48, 52, 56, 60)
 

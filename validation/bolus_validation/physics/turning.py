@@ -5,10 +5,7 @@
 from pathlib import Path
 
 import numpy as np
-
-from bolus_validation import rheology
-from bolus_validation.fields import Case
-from bolus_validation.physics.cases import (
+from bolus_cases.mapped import (
     ELASTIC,
     OPEN,
     STICK,
@@ -19,8 +16,11 @@ from bolus_validation.physics.cases import (
     material,
     picture,
 )
+from bolus_results.fields import Case
+from bolus_results.tables import read_table
+
+from bolus_validation import rheology
 from bolus_validation.physics.objectivity import LAWS
-from bolus_validation.results import read_table
 from bolus_validation.studies import Findings, study
 
 SIZE = 0.01  # of the block [m]

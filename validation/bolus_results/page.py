@@ -2,7 +2,7 @@
 # Copyright (C) 2026 the bolusFoam developers
 """One page about one or several runs, side by side: ./Allrun report.
 
-    python -m bolus_validation.page CASE [CASE ...] [-out DIR]
+    python -m bolus_results.page CASE [CASE ...] [-out DIR]
 
 writes DIR (default CASE/report, of the first) with page.html and its pictures;
 the page holds them itself, so that it can be sent alone. It tells what was
@@ -13,8 +13,6 @@ A case must have been run: serially, or reconstructed.
 """
 
 import argparse
-import base64
-import html
 import json
 import re
 import sys
@@ -28,21 +26,19 @@ from matplotlib.animation import FuncAnimation, PillowWriter
 from matplotlib.cm import ScalarMappable
 from matplotlib.colors import Normalize
 
-from bolus_validation import plots
-from bolus_validation.fields import Case
-from bolus_validation.foam_files import (
+from bolus_results import curves, plots
+from bolus_results.fields import Case
+from bolus_results.foam_files import (
     FoamFileError,
     entries,
     foam_dictionary,
     messages,
 )
-from bolus_validation.locking import alone_in
-from bolus_validation.results import (
-    PAPER_TIMES,
-    TIME_TOLERANCE,
-    collect,
-    optional_table,
-)
+from bolus_results.html import render
+from bolus_results.locking import alone_in
+from bolus_results.measure import measure_of, number_at, spread
+from bolus_results.results import collect
+from bolus_results.tables import optional_table
 
 INPUTS = (
     "constant/bolusProperties",
@@ -52,6 +48,8 @@ INPUTS = (
     "system/fvSolution",
     "system/fvSchemes",
 )
+# Numbers of the balances
+BALANCES = ("energyBalance", "retainedMass", "externalWork")
 FRAMES = 60  # of the moving picture, at most
 # What the issues of the project ask of a run
 MASS_LIMIT = 1e-3  # [-]
@@ -97,11 +95,7 @@ def read_inputs(path: Path) -> tuple[dict[str, dict[str, str]], list[str]]:
 
 def find(results: dict, place: str) -> float | None:
     """A number of results.json by its path."""
-    for key in place.split("."):
-        if not isinstance(results, dict) or key not in results:
-            return None
-        results = results[key]
-    return results["value"]
+    return (number_at(results, place) or {}).get("value")
 
 
 def warn(path: Path, results: dict, inputs: dict) -> list[str]:
@@ -171,25 +165,13 @@ def check(path: Path) -> None:
 def show(path: Path) -> Shown:
     """All that the page tells of a case, but for its pictures."""
     check(path)
-    results = collect(path)
+    results = collect(path, measure_of(path))
     inputs, warnings = read_inputs(path)
     warnings += warn(path, results, inputs)
     return Shown(path.resolve().name, path, results, inputs, warnings)
 
 
 # --- pictures -----------------------------
-
-
-def contour_times(case: Case) -> list[float]:
-    """The paper's times if half of them were written, else ten of the run."""
-    paper = [
-        t for t in PAPER_TIMES if case.nearest(t, TIME_TOLERANCE) is not None
-    ]
-    if len(paper) >= len(PAPER_TIMES) / 2:
-        return paper
-    times = [t for t in case.times if case.has(t, "alpha")]
-    picks = np.linspace(0, len(times) - 1, min(10, len(times)))
-    return [times[i] for i in np.unique(picks.round().astype(int))]
 
 
 def movie(case: Case, target: Path) -> bool:
@@ -199,8 +181,7 @@ def movie(case: Case, target: Path) -> bool:
     ]
     if len(times) < 2:
         return False
-    picks = np.linspace(0, len(times) - 1, min(FRAMES, len(times)))
-    times = [times[i] for i in np.unique(picks.round().astype(int))]
+    times = spread(times, FRAMES)
     highest = max(
         float(np.percentile(1e-3 * case.field(t, "sigmaEq"), 99)) for t in times
     )
@@ -253,7 +234,7 @@ def tool_curves(shown: list[Shown], target: Path) -> bool:
 def draw_all(shown: list[Shown], folder: Path):
     """Pictures: [(caption, path)] of all cases, and of each case."""
     common = []
-    if plots.curves([one.path for one in shown], folder / "curves.png"):
+    if curves.curves([one.path for one in shown], folder / "curves.png"):
         common.append(("Force, work, retained bolus", folder / "curves.png"))
     if tool_curves(shown, folder / "tool.png"):
         common.append(("The tool", folder / "tool.png"))
@@ -262,7 +243,7 @@ def draw_all(shown: list[Shown], folder: Path):
         case = Case(one.path)
         mine, target = [], folder / f"case{i}"
         target.mkdir(exist_ok=True)
-        made = plots.draw([one.path], contour_times(case), target)
+        made = plots.draw([one.path], measure_of(one.path).times, target)
         for path in made:
             if path.name != "curves.png":
                 mine.append((path.stem, path))
@@ -279,37 +260,6 @@ def draw_all(shown: list[Shown], folder: Path):
 
 # --- the page -----------------------------
 
-STYLE = """
-body { font: 15px sans-serif; margin: 2em; }
-table { border-collapse: collapse; margin: 1em 0; }
-td, th { border: 1px solid #ccc; padding: .2em .6em; text-align: left;
-         vertical-align: top; }
-td.number { text-align: right; font-variant-numeric: tabular-nums; }
-tr.differs td { background: #fff4d6; }
-img { max-width: 100%; }
-.side { display: flex; gap: 2em; flex-wrap: wrap; }
-.side > section { flex: 1 1 30em; min-width: 0; }
-.warning { color: #a02000; }
-"""
-
-
-def table(heads, rows, mark_differences=False) -> str:
-    """Rows of (label, cells...); cells are text, or numbers to the right."""
-    lines = [
-        "<tr>" + "".join(f"<th>{html.escape(h)}</th>" for h in heads) + "</tr>"
-    ]
-    for label, *cells in rows:
-        differs = mark_differences and len(set(cells)) > 1
-        line = f"<tr{' class=differs' if differs else ''}>"
-        line += f"<td>{html.escape(label)}</td>"
-        for cell in cells:
-            number = isinstance(cell, (int, float))
-            text = "" if cell is None else f"{cell:.6g}" if number else cell
-            kind = ' class="number"' if number else ""
-            line += f"<td{kind}>{html.escape(text)}</td>"
-        lines.append(line + "</tr>")
-    return "<table>" + "\n".join(lines) + "</table>"
-
 
 def flat(results: dict, path=()) -> dict[str, dict]:
     """Numbers of results.json by their paths."""
@@ -322,131 +272,49 @@ def flat(results: dict, path=()) -> dict[str, dict]:
     return found
 
 
-def number_table(shown: list[Shown], part: str, only=lambda name: True) -> str:
+def number_rows(shown: list[Shown], part: str) -> list[tuple]:
     """The numbers of a part of results.json, side by side."""
     numbers = [flat(one.results.get(part, {})) for one in shown]
-    names = dict.fromkeys(name for each in numbers for name in each)
-    rows = []
-    for name in names:
-        if not only(name):
-            continue
-        unit = next(each[name]["unit"] for each in numbers if name in each)
-        rows.append(
-            (
-                f"{name} [{unit}]",
-                *(
-                    each[name]["value"] if name in each else None
-                    for each in numbers
-                ),
-            )
+    units = {k: v["unit"] for each in numbers for k, v in each.items()}
+    return [
+        (
+            f"{name} [{unit}]",
+            *(each.get(name, {}).get("value") for each in numbers),
         )
-    return table(["", *(one.name for one in shown)], rows)
-
-
-def picture(path: Path, caption: str) -> str:
-    """A picture as a part of the page."""
-    kind = path.suffix[1:]
-    data = base64.b64encode(path.read_bytes()).decode()
-    caption = html.escape(caption)
-    return (
-        f'<figure><img alt="{caption}" src="data:image/{kind};base64,{data}">'
-        f"<figcaption>{caption}</figcaption></figure>"
-    )
-
-
-def side_by_side(blocks: list[str]) -> str:
-    """Blocks of HTML in columns."""
-    return (
-        '<div class="side">'
-        + "".join(f"<section>{block}</section>" for block in blocks)
-        + "</div>"
-    )
-
-
-def what_was_run(shown: list[Shown]) -> str:
-    """Folders, settings, and what the runs cost."""
-
-    def text(one, name):
-        path = one.path / name
-        return path.read_text().strip() if path.is_file() else ""
-
-    rows = [
-        ("folder", *(str(one.path.resolve()) for one in shown)),
-        ("settings", *(text(one, "settings") or "none" for one in shown)),
+        for name, unit in units.items()
     ]
-    return table(["", *(one.name for one in shown)], rows) + number_table(
-        shown, "run"
-    )
-
-
-def input_tables(shown: list[Shown]) -> str:
-    """The dictionaries, with the entries that differ in colour."""
-    parts = []
-    names = dict.fromkeys(name for one in shown for name in one.inputs)
-    for name in names:
-        each = [one.inputs.get(name, {}) for one in shown]
-        keys = dict.fromkeys(key for inputs in each for key in inputs)
-        rows = [(k, *(inputs.get(k, "-") for inputs in each)) for k in keys]
-        parts.append(
-            f"<details><summary>{html.escape(name)}</summary>"
-            + table(["entry", *(one.name for one in shown)], rows, True)
-            + "</details>"
-        )
-    return "".join(parts)
-
-
-def is_balance(name: str) -> bool:
-    """Does a number of the results belong to the balances?"""
-    return name.startswith(("energyBalance", "retainedMass", "externalWork"))
 
 
 def page(shown: list[Shown], common, own) -> str:
-    """The text of the page."""
-    title = "bolusFoam: " + ", ".join(one.name for one in shown)
-    warnings = side_by_side(
-        [
-            f"<h3>{html.escape(one.name)}</h3>"
-            + (
-                "<ul>"
-                + "".join(
-                    f'<li class="warning">{html.escape(text)}</li>'
-                    for text in one.warnings
-                )
-                + "</ul>"
-                if one.warnings
-                else "<p>None.</p>"
-            )
-            for one in shown
-        ]
-    )
-    pictures = side_by_side(
-        [
-            f"<h3>{html.escape(one.name)}</h3>"
-            + (
-                "".join(picture(path, caption) for caption, path in mine)
-                or "<p>No pictures of fields: none written, or a 3D mesh.</p>"
-            )
-            for one, mine in zip(shown, own, strict=True)
-        ]
-    )
-    sections = (
-        ("What was run", what_was_run(shown)),
-        ("Warnings", warnings),
-        ("Curves", "".join(picture(path, text) for text, path in common)),
-        ("Fields", pictures),
-        ("Mass and energy balance", number_table(shown, "results", is_balance)),
-        (
-            "Other numbers",
-            number_table(shown, "results", lambda name: not is_balance(name)),
-        ),
-        ("Inputs", input_tables(shown)),
-    )
-    return (
-        '<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8">'
-        f"<title>{html.escape(title)}</title><style>{STYLE}</style></head><body>"
-        f"<h1>{html.escape(title)}</h1>"
-        + "".join(f"<h2>{head}</h2>\n{body}\n" for head, body in sections)
-        + "</body></html>\n"
+    """The text of the page; pictures as of draw_all."""
+
+    def settings(one):
+        path = one.path / "settings"
+        return path.read_text().strip() if path.is_file() else ""
+
+    names = dict.fromkeys(name for one in shown for name in one.inputs)
+    each = {n: [one.inputs.get(n, {}) for one in shown] for n in names}
+    numbers = number_rows(shown, "results")
+    return render(
+        "runs.html",
+        title="bolusFoam: " + ", ".join(one.name for one in shown),
+        shown=shown,
+        common=common,
+        own=own,
+        run=[
+            ("folder", *(str(one.path.resolve()) for one in shown)),
+            ("settings", *(settings(one) or "none" for one in shown)),
+            *number_rows(shown, "run"),
+        ],
+        balance=[row for row in numbers if row[0].startswith(BALANCES)],
+        others=[row for row in numbers if not row[0].startswith(BALANCES)],
+        inputs={
+            name: [
+                (key, *(given.get(key, "-") for given in inputs))
+                for key in dict.fromkeys(k for given in inputs for k in given)
+            ]
+            for name, inputs in each.items()
+        },
     )
 
 

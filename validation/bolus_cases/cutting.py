@@ -5,12 +5,12 @@
 A cylinder (or wire) is pressed downwards (-y) into a block of bolus on a
 platen (y = 0). Half of it is meshed, x >= 0; the tool's long axis is z.
 
-    python -m bolus_validation.cutting      in the case's folder
+    python -m bolus_cases.cutting      in the case's folder
 
 reads system/caseParameters and writes constant/polyMesh (by gmsh and
 gmshToFoam), 0/alpha and system/derivedParameters. SI units.
 
-    python -m bolus_validation.cutting tool.stl
+    python -m bolus_cases.cutting tool.stl
 
 only checks that a surface is closed. Entry toolSurface makes the mesh around
 one (see tool_surface); the motion solver rigidTool moves any patch.
@@ -25,11 +25,10 @@ from pathlib import Path
 
 import gmsh
 import numpy as np
+from bolus_cases.synthetic import write_file
+from bolus_cases.tool_surface import check_surface, divide, outline
+from bolus_results.fields import Mesh, read_mesh
 from scipy.spatial import cKDTree
-
-from bolus_validation.fields import Mesh, read_mesh
-from bolus_validation.synthetic import write_file
-from bolus_validation.tool_surface import check_surface, divide, outline
 
 
 @dataclass
@@ -497,7 +496,7 @@ def write_derived(case: Path, p: Parameters) -> None:
     scale = p.diameter / p.speed
     write_file(
         case / "system" / "derivedParameters",
-        "// By bolus_validation.cutting, from caseParameters\n"
+        "// By bolus_cases.cutting, from caseParameters\n"
         f"endTime         {end:.12g};\n"
         f"maxDeltaT       {step:.12g};\n"
         f"deltaT          {0.1 * step:.12g};\n"

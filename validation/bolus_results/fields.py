@@ -16,7 +16,7 @@ import numpy as np
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 
-from bolus_validation.foam_files import (
+from bolus_results.foam_files import (
     FoamFileError,
     read_faces,
     read_field,
@@ -24,7 +24,7 @@ from bolus_validation.foam_files import (
     read_text,
     stored,
 )
-from bolus_validation.frame import (
+from bolus_results.frame import (
     Frame,
     declared_frame,
     other_frame,

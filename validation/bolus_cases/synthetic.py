@@ -12,8 +12,7 @@ import subprocess
 from pathlib import Path
 
 import numpy as np
-
-from bolus_validation.fields import Mesh, read_mesh
+from bolus_results.fields import Mesh, read_mesh
 
 HALF_ANGLE = np.radians(2.5)
 
@@ -86,44 +85,81 @@ def write_file(path: Path, text: str, cls: str = "dictionary") -> None:
     path.write_text(_HEADER.format(cls=cls, name=path.name) + text)
 
 
-def write_blocks(case: Path, vertices: str, blocks: str, patches: dict) -> None:
-    """Make the mesh of these blocks; patches {name: (type, its faces)}, all in
-    the words of blockMeshDict."""
+def _listed(rows) -> str:
+    """Rows of numbers in the words of OpenFOAM."""
+    return "\n".join(
+        "(" + " ".join(f"{x:.17g}" for x in row) + ")" for row in rows
+    )
+
+
+def vectors(rows) -> str:
+    """A list of OpenFOAM with its length, of (n, 3)."""
+    return f"{len(rows)}\n(\n{_listed(rows)}\n)\n"
+
+
+def write_blocks(case: Path, vertices, blocks, patches: dict) -> Mesh:
+    """Make a mesh by blockMesh.
+
+    vertices   (x, y, z) [m] of each
+    blocks     (corners, counts) of each: eight vertices, cells along its sides
+    patches    {name: (type, faces)}, of each face its vertices
+    """
     write_file(
         case / "system" / "blockMeshDict",
-        f"vertices (\n{vertices});\nblocks (\n{blocks});\nboundary (\n"
+        f"vertices (\n{_listed(vertices)}\n);\nblocks (\n"
         + "".join(
-            f"{name} {{ type {kind}; faces ({faces}); }}\n"
+            f"hex {_listed([corners])} {_listed([counts])} "
+            "simpleGrading (1 1 1)\n"
+            for corners, counts in blocks
+        )
+        + ");\nboundary (\n"
+        + "".join(
+            f"{name} {{ type {kind}; faces ({_listed(faces)}); }}\n"
             for name, (kind, faces) in patches.items()
         )
         + ");\n",
     )
-    run(case, "blockMesh")
-
-
-def _block_mesh(case: Path, vertices, block, counts, patches) -> Mesh:
-    text = "vertices\n(\n"
-    text += "".join(
-        f"    ({x:.17g} {y:.17g} {z:.17g})\n" for x, y, z in vertices
-    )
-    text += ");\nblocks\n(\n    hex ("
-    text += " ".join(map(str, block)) + ") ("
-    text += " ".join(map(str, counts)) + ") simpleGrading (1 1 1)\n);\n"
-    text += "boundary\n(\n"
-    for name, kind, faces in patches:
-        text += f"    {name} {{ type {kind}; faces ("
-        text += " ".join(f"({' '.join(map(str, f))})" for f in faces)
-        text += "); }\n"
-    write_file(case / "system" / "blockMeshDict", text + ");\n")
-    write_control(case)
+    if not (case / "system" / "controlDict").exists():
+        write_control(case)
     run(case, "blockMesh")
     return read_mesh(case / "constant" / "polyMesh")
 
 
-def wedge_mesh(case: Path, length: float, radius: float, nx: int, nr: int):
+def box_mesh(case: Path, size, counts, kinds: dict) -> Mesh:
+    """A box from the origin on; kinds: type of each patch x0, x1, y0, ..."""
+    corners = [
+        (x, y, z)
+        for z in (0, size[2])
+        for y in (0, size[1])
+        for x in (0, size[0])
+    ]
+    faces = {
+        "x0": (0, 4, 6, 2),
+        "x1": (1, 3, 7, 5),
+        "y0": (0, 1, 5, 4),
+        "y1": (2, 6, 7, 3),
+        "z0": (0, 2, 3, 1),
+        "z1": (4, 5, 7, 6),
+    }
+    return write_blocks(
+        case,
+        corners,
+        [((0, 1, 3, 2, 4, 5, 7, 6), counts)],
+        {name: (kinds[name], [face]) for name, face in faces.items()},
+    )
+
+
+def wedge_mesh(
+    case: Path,
+    length: float,
+    radius: float,
+    nx: int,
+    nr: int,
+    patches=(("shell", "wall"), ("wall", "wall"), ("outlet", "patch")),
+) -> Mesh:
     """Cylinder about x from 0 to length: a wedge of 5 degrees.
 
-    Patches: shell (x = 0, a wall), wall (r = radius), outlet (x = length).
+    patches   names and types at x = 0, r = radius, x = length
     """
     y, z = radius * np.cos(HALF_ANGLE), radius * np.sin(HALF_ANGLE)
     vertices = [
@@ -134,39 +170,20 @@ def wedge_mesh(case: Path, length: float, radius: float, nx: int, nr: int):
         (length, y, z),
         (0, y, z),
     ]
-    return _block_mesh(
+    faces = [[(0, 5, 3, 0)], [(3, 5, 4, 2)], [(1, 2, 4, 1)]]
+    return write_blocks(
         case,
         vertices,
-        (0, 1, 2, 3, 0, 1, 4, 5),
-        (nx, nr, 1),
-        [
-            ("shell", "wall", [(0, 5, 3, 0)]),
-            ("wall", "wall", [(3, 5, 4, 2)]),
-            ("outlet", "patch", [(1, 2, 4, 1)]),
-            ("wedge0", "wedge", [(0, 3, 2, 1)]),
-            ("wedge1", "wedge", [(0, 1, 4, 5)]),
-            ("axis", "empty", [(0, 1, 1, 0)]),
-        ],
-    )
-
-
-def _box(case: Path, size, counts, kinds):
-    (a, b, c) = size
-    vertices = [(x, y, z) for z in (0, c) for y in (0, b) for x in (0, a)]
-    faces = {
-        "x0": (0, 4, 6, 2),
-        "x1": (1, 3, 7, 5),
-        "y0": (0, 1, 5, 4),
-        "y1": (2, 6, 7, 3),
-        "z0": (0, 2, 3, 1),
-        "z1": (4, 5, 7, 6),
-    }
-    return _block_mesh(
-        case,
-        vertices,
-        (0, 1, 3, 2, 4, 5, 7, 6),
-        counts,
-        [(name, kinds[name], [face]) for name, face in faces.items()],
+        [((0, 1, 2, 3, 0, 1, 4, 5), (nx, nr, 1))],
+        {
+            name: (kind, face)
+            for (name, kind), face in zip(patches, faces, strict=True)
+        }
+        | {
+            "wedge0": ("wedge", [(0, 3, 2, 1)]),
+            "wedge1": ("wedge", [(0, 1, 4, 5)]),
+            "axis": ("empty", [(0, 1, 1, 0)]),
+        },
     )
 
 
@@ -174,14 +191,14 @@ def octant_mesh(case: Path, size: float, n: int) -> Mesh:
     """A cube with symmetry planes x0, y0, z0 and walls x1, y1, z1."""
     kinds = {f"{axis}0": "symmetryPlane" for axis in "xyz"}
     kinds |= {f"{axis}1": "wall" for axis in "xyz"}
-    return _box(case, (size,) * 3, (n,) * 3, kinds)
+    return box_mesh(case, (size,) * 3, (n,) * 3, kinds)
 
 
 def plane_mesh(case: Path, size: tuple, counts: tuple) -> Mesh:
     """A plane mesh, 1 m thick: walls y0, y1, patches x0, x1."""
     kinds = {"x0": "patch", "x1": "patch", "y0": "wall", "y1": "wall"}
     kinds |= {"z0": "empty", "z1": "empty"}
-    return _box(case, (*size, 1.0), (*counts, 1), kinds)
+    return box_mesh(case, (*size, 1.0), (*counts, 1), kinds)
 
 
 def write_control(case: Path, end: float = 1, functions: str = "", **entries):
@@ -208,19 +225,10 @@ def _values(array: np.ndarray) -> str:
     """A list of OpenFOAM."""
     array = np.asarray(array, dtype=float)
     if array.ndim == 1:
-        return (
-            f"List<scalar> {len(array)}\n(\n"
-            + "".join(f"{x:.17g}\n" for x in array)
-            + ")"
-        )
+        rows = "\n".join(f"{x:.17g}" for x in array)
+        return f"List<scalar> {len(array)}\n(\n{rows}\n)"
     kind = {3: "vector", 6: "symmTensor"}[array.shape[1]]
-    return (
-        f"List<{kind}> {len(array)}\n(\n"
-        + "".join(
-            "(" + " ".join(f"{x:.17g}" for x in row) + ")\n" for row in array
-        )
-        + ")"
-    )
+    return f"List<{kind}> {len(array)}\n(\n{_listed(array)}\n)"
 
 
 def write_field(case: Path, mesh: Mesh, time, name: str, cells, faces=None):

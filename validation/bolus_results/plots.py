@@ -2,25 +2,26 @@
 # Copyright (C) 2026 the bolusFoam developers
 """Pictures of a run.
 
-    python -m bolus_validation.plots CASE [CASE ...] [--times T ...] [--out DIR]
+    python -m bolus_results.plots CASE [CASE ...] [--times T ...] [--out DIR]
 
 writes into CASE/pictures (or DIR), for the first case
 
     sigmaEq.png triaxiality.png epsilonPEq.png D.png   the bolus, where
-                  alpha > 0.5, at the paper's ten times (its Fig. 8)
+                  alpha > 0.5, at the times of results.json, or
+                  at ten over the run
     overview.png  alpha and pressure at times spread over the run
 
 and for all the cases together
 
-    curves.png    force and work per bolus mass, mass retained (its Fig. 9)
+    curves.png    force and work per bolus mass, mass retained
 
 and, if the first case has the table energyBalance,
 
     energy.png    where the work of the walls went, and what of it the
                   discretisation took
 
-The pylorus is on the right (the paper's Fig. 8 has it on the left). Only
-wedge and plane meshes have pictures of fields.
+The pylorus is on the right. Only wedge and plane meshes have pictures of
+fields.
 """
 
 import argparse
@@ -28,25 +29,17 @@ import sys
 from dataclasses import dataclass
 from pathlib import Path
 
-import matplotlib
+import numpy as np
+from matplotlib import pyplot as plt
+from matplotlib.cm import ScalarMappable
+from matplotlib.collections import LineCollection, PolyCollection
+from matplotlib.colors import Normalize
 
-matplotlib.use("Agg")
-
-import numpy as np  # noqa: E402  (after the choice of the backend)
-from matplotlib import pyplot as plt  # noqa: E402
-from matplotlib.cm import ScalarMappable  # noqa: E402
-from matplotlib.collections import LineCollection, PolyCollection  # noqa: E402
-from matplotlib.colors import Normalize  # noqa: E402
-
-from bolus_validation.fields import Case, NoSection, Section  # noqa: E402
-from bolus_validation.foam_files import FoamFileError, stored  # noqa: E402
-from bolus_validation.locking import alone_in  # noqa: E402
-from bolus_validation.results import (  # noqa: E402
-    PAPER_TIMES,
-    TIME_TOLERANCE,
-    energy_shares,
-    optional_table,
-)
+from bolus_results import curves
+from bolus_results.fields import Case, NoSection, Section
+from bolus_results.foam_files import FoamFileError, stored
+from bolus_results.locking import alone_in
+from bolus_results.measure import TIME_TOLERANCE, measure_of, spread
 
 MM = 1e3
 VOID = "#f4f1ec"
@@ -175,9 +168,7 @@ def written(case: Case, times, fields) -> list[float]:
     ]
 
 
-def contour_page(
-    case: Case, quantity: Quantity, target: Path, times=PAPER_TIMES
-) -> bool:
+def contour_page(case: Case, quantity: Quantity, target: Path, times) -> bool:
     """One field of the bolus at several times; False if none was written."""
     shown = written(case, times, ("alpha", quantity.field))
     if not shown:
@@ -245,10 +236,7 @@ def overview(case: Case, target: Path, number: int = 8) -> bool:
     ]
     if not times:
         return False
-    picks = np.unique(
-        np.linspace(0, len(times) - 1, number).round().astype(int)
-    )
-    times = [times[i] for i in picks]
+    times = spread(times, number)
 
     # kPa; symmetric, so that no pressure is white
     highest = 1e-9
@@ -306,162 +294,13 @@ def overview(case: Case, target: Path, number: int = 8) -> bool:
     return True
 
 
-# Panels of the paper's Fig. 9: function object, column, factor, label
-_CURVES = (
-    (
-        "contactForce",
-        "total_perMass",
-        1,
-        "force on the wall / bolus mass [N/g]",
-    ),
-    (
-        "externalWork",
-        "work_perMass",
-        1,
-        "work of the wall / bolus mass [mJ/g]",
-    ),
-    ("retainedMass", "retained", 100, "bolus retained [% of the start]"),
-)
+def draw(paths, times=(), folder: Path | None = None) -> list[Path]:
+    """Draw all pictures; returns those that there was something to draw for.
 
-
-def curves(paths, target: Path, labels=None) -> bool:
-    """The three curves of the paper's Fig. 9, for one or more cases.
-
-    labels: what the legend calls each of them, else the names of their folders.
+    times   of the fields [s]; (): see Measure
     """
-    if labels is None:
-        labels = [Path(path).resolve().name for path in paths]
-    figure, panels = plt.subplots(1, 3, figsize=(12, 3.8), layout="constrained")
-    drawn = 0
-    for path, label in zip(paths, labels, strict=True):
-        for axes, (name, column, factor, quantity) in zip(
-            panels, _CURVES, strict=True
-        ):
-            axes.set_xlabel("t [s]")
-            axes.set_ylabel(quantity)
-            table = optional_table(path, name)
-            if table:
-                axes.plot(
-                    table.time,
-                    factor * table[column],
-                    linewidth=1.2,
-                    label=label,
-                )
-                drawn += 1
-    for axes, tag in zip(panels, "abc", strict=True):
-        axes.grid(alpha=0.3)
-        axes.set_xlim(left=0)
-        axes.set_title(f"({tag})", loc="left", fontsize=10)
-    panels[2].set_ylim(bottom=0)
-    if len(paths) > 1 and drawn:
-        panels[0].legend()
-    if drawn:
-        figure.savefig(target, dpi=150)
-    plt.close(figure)
-    return drawn > 0
-
-
-# Layers of the energy picture, from below: label, columns, colour
-_LAYERS = (
-    ("elastic, kinetic", ("elastic", "slip", "kinetic"), "#4c72b0"),
-    ("plastic", ("plastic",), "#c8b08a"),
-    ("friction", ("friction",), "#55a868"),
-    ("fracture", ("fracture",), "#c44e52"),
-    ("broken bolus's viscosity", ("debris",), "#dd8452"),
-    ("void", ("void",), "#b9b4ab"),
-    (
-        "time step, transport, outflow",
-        ("relaxation", "inertiaLoss", "transport", "outflow"),
-        "#8172b3",
-    ),
-    (
-        "stabilisation",
-        ("hourglass", "overfill"),
-        "#937860",
-    ),
-)
-
-
-def energy(path, target: Path) -> bool:
-    """Where the work of the walls went; False without energyBalance."""
-    table = optional_table(path, "energyBalance")
-    if not table:
-        return False
-    figure, (left, right) = plt.subplots(
-        1, 2, figsize=(10, 4), layout="constrained"
-    )
-    below = np.zeros_like(table.time)
-    for label, columns, colour in _LAYERS:
-        above = below + 1e3 * sum(table[column] for column in columns)
-        left.fill_between(
-            table.time, below, above, color=colour, linewidth=0, label=label
-        )
-        below = above
-    left.plot(
-        table.time,
-        1e3 * (table["work"] + table["closure"]),
-        "k",
-        linewidth=1,
-        label="work of the walls",
-    )
-    left.set_ylabel("energy [mJ]")
-    left.legend(fontsize=7)
-
-    for name, share in energy_shares(table).items():
-        right.plot(table.time, 100 * share, linewidth=1.2, label=name)
-    work = np.abs(table["work"] + table["closure"]).max()
-    right.plot(
-        table.time,
-        100 * np.abs(table["residual"]) / (work if work > 0 else 1.0),
-        "k:",
-        label="residual",
-    )
-    right.set_ylabel("artificial, of the largest work [%]")
-    right.legend(fontsize=7)
-    for axes in (left, right):
-        axes.set_xlabel("t [s]")
-        axes.set_xlim(left=0)
-        axes.grid(alpha=0.3)
-    figure.suptitle(Path(path).resolve().name, fontsize=11)
-    figure.savefig(target, dpi=150)
-    plt.close(figure)
-    return True
-
-
-def pieces(path, target: Path) -> bool:
-    """Pieces of sound bolus, and the jets, against time."""
-    fragments = optional_table(path, "fragments")
-    jets = optional_table(path, "jets")
-    if not fragments or not jets:
-        return False
-
-    figure, (left, right) = plt.subplots(
-        1, 2, figsize=(11, 3.6), layout="constrained"
-    )
-    left.step(fragments.time, fragments["pieces"], "k", label="pieces")
-    left.set(xlabel="t [s]", ylabel="pieces of sound bolus [-]")
-    masses = left.twinx()
-    for i in range(1, 5):
-        masses.plot(
-            fragments.time, 1e3 * fragments[f"mass{i}"], lw=1, label=f"no. {i}"
-        )
-    masses.set(ylabel="mass of the largest [g]")
-    masses.legend(fontsize=8)
-    for column, label in (
-        ("back99", "back"),
-        ("out99", "out through the pylorus"),
-    ):
-        right.plot(jets.time, 1e3 * jets[column], lw=0.8, label=label)
-    right.set(xlabel="t [s]", ylabel="speed of the fastest hundredth [mm/s]")
-    right.legend(fontsize=8)
-    figure.savefig(target, dpi=120)
-    plt.close(figure)
-    return True
-
-
-def draw(paths, times=PAPER_TIMES, folder: Path | None = None) -> list[Path]:
-    """Draw all pictures; returns those that there was something to draw for."""
     first = Case(paths[0])
+    times = times or measure_of(first.path).times_of(first)
     folder = Path(folder) if folder else first.path / "pictures"
     folder.mkdir(parents=True, exist_ok=True)
 
@@ -479,9 +318,9 @@ def draw(paths, times=PAPER_TIMES, folder: Path | None = None) -> list[Path]:
                 made.append(target)
         if overview(first, folder / "overview.png"):
             made.append(folder / "overview.png")
-    if curves(paths, folder / "curves.png"):
+    if curves.curves(paths, folder / "curves.png"):
         made.append(folder / "curves.png")
-    if energy(paths[0], folder / "energy.png"):
+    if curves.energy(paths[0], folder / "energy.png"):
         made.append(folder / "energy.png")
     return made
 
@@ -496,9 +335,9 @@ def main(arguments=None) -> int:
         "--times",
         type=float,
         nargs="+",
-        default=PAPER_TIMES,
+        default=(),
         metavar="T",
-        help="times of the contours [s] (the paper's ten)",
+        help="times of the contours [s] (those of results.json)",
     )
     parser.add_argument("--out", type=Path, help="folder (CASE/pictures)")
     options = parser.parse_args(arguments)

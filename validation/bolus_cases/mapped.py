@@ -14,14 +14,16 @@ from pathlib import Path
 
 import matplotlib.pyplot as plt
 import numpy as np
+from bolus_results.fields import Case, Mesh, read_mesh
+from bolus_results.tables import Table, read_table
 from matplotlib.collections import PolyCollection
 
-from bolus_validation.fields import Case, Mesh, read_mesh
-from bolus_validation.results import Table, read_table
-from bolus_validation.specimens import TUTORIAL, replace, solve
-from bolus_validation.synthetic import (
+from bolus_cases.specimens import TUTORIAL, replace, solve
+from bolus_cases.synthetic import (
     HALF_ANGLE,
+    box_mesh,
     run,
+    vectors,
     wedge_mesh,
     write_control,
     write_field,
@@ -78,59 +80,15 @@ def perfect(stress: float) -> str:
 ELASTIC = perfect(1e9)
 
 
-def _write_points(path: Path, points: np.ndarray) -> None:
-    write_file(
-        path,
-        f"{len(points)}\n(\n"
-        + "".join(f"({x:.17g} {y:.17g} {z:.17g})\n" for x, y, z in points)
-        + ")\n",
-        "vectorField",
-    )
-
-
-def _unit_mesh(case: Path, counts, sides: dict, wedge: bool) -> None:
+def _unit_mesh(case: Path, counts, sides: dict, wedge: bool) -> Mesh:
     """blockMesh of the unit square, cube or sector; patches as in sides."""
-    control = {"functions": ""}
+    kinds = {name: _kind(side.condition) for name, side in sides.items()}
     if wedge:
-        wedge_mesh(case, 1, 1, *counts)
-        names = {"shell": "x0", "outlet": "x1", "wall": "y1"}
-        path = case / "constant" / "polyMesh" / "boundary"
-        text = path.read_text()
-        for old, new in names.items():
-            head, tail = text.split(f"    {old}\n", 1)
-            block, rest = tail.split("}", 1)
-            kind = _kind(sides[new].condition)
-            block = "".join(
-                f"        type {kind};\n" if "type " in line else line
-                for line in block.splitlines(keepends=True)
-                if "inGroups" not in line
-            )
-            text = f"{head}    {new}\n{block}}}{rest}"
-        path.write_text(text)
-        return
-    plane = len(counts) == 2
-    counts = (*counts, 1) if plane else counts
-    faces = {
-        "x0": (0, 4, 6, 2),
-        "x1": (1, 3, 7, 5),
-        "y0": (0, 1, 5, 4),
-        "y1": (2, 6, 7, 3),
-        "z0": (0, 2, 3, 1),
-        "z1": (4, 5, 7, 6),
-    }
-    vertices = [(x, y, z) for z in (0, 1) for y in (0, 1) for x in (0, 1)]
-    text = "vertices (" + " ".join(f"({x} {y} {z})" for x, y, z in vertices)
-    text += ");\nblocks (hex (0 1 3 2 4 5 7 6) "
-    text += f"({counts[0]} {counts[1]} {counts[2]}) simpleGrading (1 1 1));\n"
-    text += "boundary (\n"
-    for name, face in faces.items():
-        empty = plane and name[0] == "z"
-        kind = "empty" if empty else _kind(sides[name].condition)
-        text += f"{name} {{ type {kind}; "
-        text += f"faces (({' '.join(map(str, face))})); }}\n"
-    write_file(case / "system" / "blockMeshDict", text + ");\n")
-    write_control(case, **control)
-    run(case, "blockMesh")
+        patches = [(name, kinds[name]) for name in ("x0", "y1", "x1")]
+        return wedge_mesh(case, 1, 1, *counts, patches)
+    if len(counts) == 2:
+        counts, kinds = (*counts, 1), kinds | {"z0": "empty", "z1": "empty"}
+    return box_mesh(case, (1, 1, 1), counts, kinds)
 
 
 def _kind(condition: str) -> str:
@@ -202,9 +160,8 @@ def build(
     whole = dict(sides)
     for patch in split or {}:
         whole.setdefault(patch, OPEN)
-    _unit_mesh(case, counts, whole, wedge)
+    mesh = _unit_mesh(case, counts, whole, wedge)
     polymesh = case / "constant" / "polyMesh"
-    mesh = read_mesh(polymesh)
     points = mesh.points.copy()
     if wedge:
         side = np.sign(points[:, 2])
@@ -220,7 +177,7 @@ def build(
         points[:, 2] *= THICKNESS
     else:
         points = place(points)
-    _write_points(polymesh / "points", points)
+    write_file(polymesh / "points", vectors(points), "vectorField")
     for patch, parts in (split or {}).items():
         split_patch(
             case,
@@ -315,19 +272,12 @@ def _write_motion(case: Path, mesh: Mesh, name: str, motion, knots) -> None:
     points = mesh.points[labels]
     folder = case / "constant" / "boundaryData" / name
 
-    def listed(rows):
-        return (
-            f"{len(rows)}\n(\n"
-            + "".join(f"({x:.17g} {y:.17g} {z:.17g})\n" for x, y, z in rows)
-            + ")\n"
-        )
-
     folder.mkdir(parents=True, exist_ok=True)
-    (folder / "points").write_text(listed(points))
+    (folder / "points").write_text(vectors(points))
     for t in knots:
         target = folder / f"{t:.9g}"
         target.mkdir(exist_ok=True)
-        (target / "pointDisplacement").write_text(listed(motion(t, points)))
+        (target / "pointDisplacement").write_text(vectors(motion(t, points)))
 
 
 def finish(case: Path, force: str | None = None) -> tuple[Case, Table | None]:

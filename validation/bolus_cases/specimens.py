@@ -10,10 +10,11 @@ import shutil
 from pathlib import Path
 
 import numpy as np
+from bolus_results.fields import Mesh
+from bolus_results.tables import read_table
 
-from bolus_validation.fields import Mesh, read_mesh
-from bolus_validation.results import read_table
-from bolus_validation.synthetic import (
+from bolus_cases.synthetic import (
+    box_mesh,
     run,
     write_control,
     write_field,
@@ -175,17 +176,8 @@ def box(
     measured    patches with a function object force<Patch>: contactForce
     """
     plane = len(size) == 2
-    a, b, c = (*size, thickness) if plane else size
+    size = (*size, thickness) if plane else size
     counts = (*counts, 1) if plane else counts
-    vertices = [(x, y, z) for z in (0, c) for y in (0, b) for x in (0, a)]
-    faces = {
-        "x0": (0, 4, 6, 2),
-        "x1": (1, 3, 7, 5),
-        "y0": (0, 1, 5, 4),
-        "y1": (2, 6, 7, 3),
-        "z0": (0, 2, 3, 1),
-        "z1": (4, 5, 7, 6),
-    }
     what = dict(patches)
     if plane:
         what |= {"z0": "empty", "z1": "empty"}
@@ -211,20 +203,6 @@ def box(
                 f"type uniformFixedValue; uniformValue table\n(\n{rows});"
             )
 
-    write_file(
-        case / "system" / "blockMeshDict",
-        "vertices (\n"
-        + "".join(f"({x:.17g} {y:.17g} {z:.17g})\n" for x, y, z in vertices)
-        + ");\nblocks (hex (0 1 3 2 4 5 7 6) "
-        + f"({counts[0]} {counts[1]} {counts[2]}) simpleGrading (1 1 1));\n"
-        + "boundary (\n"
-        + "".join(
-            f"{name} {{ type {kinds[name]}; "
-            f"faces (({' '.join(map(str, face))})); }}\n"
-            for name, face in faces.items()
-        )
-        + ");\n",
-    )
     forces = "".join(
         f"force{name.upper()} {{ type contactForce; patches ({name}); "
         'libs ("libbolusFunctionObjects.so"); }\n'
@@ -251,8 +229,7 @@ def box(
         f'#include "{COMMON}/bolusProperties.{material}"\n',
     )
     write_laplacian_motion(case)
-    run(case, "blockMesh")
-    mesh = read_mesh(case / "constant" / "polyMesh")
+    mesh = box_mesh(case, size, counts, kinds)
 
     alpha = np.ones(mesh.n_cells)
     for i, ends in enumerate(block or ()):
@@ -269,18 +246,6 @@ def box(
 def ramp(end: float, move, n: int = 400):
     """A table of displacements: move(t) -> (x, y, z) [m] from 0 to end [s]."""
     return [(t, move(t)) for t in np.linspace(0, end, n + 1)]
-
-
-def solve_in_two(case: Path) -> None:
-    """Run bolusFoam in a case on two ranks, parted across x."""
-    write_file(
-        case / "system" / "decomposeParDict",
-        "numberOfSubdomains 2; method simple;\n"
-        "simpleCoeffs { n (2 1 1); delta 0.001; }\n",
-    )
-    run(case, "decomposePar")
-    parallel = ("mpirun", "--oversubscribe", "-np", "2")
-    run(case, *parallel, "bolusFoam", "-parallel")
 
 
 def solve(case: Path) -> None:

@@ -19,8 +19,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-
-from bolus_validation.foam_files import (
+from bolus_results.foam_files import (
     FoamFileError,
     entries,
     expanded,

@@ -1,13 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 the bolusFoam developers
-"""A run of case A against what the paper reports.
+"""The paper's numbers, and a run of case A against what it reports.
 
-    python -m bolus_validation.report CASE [--readme FILE]
+    python -m bolus_validation.paper CASE [--readme FILE]
 
-writes CASE/comparison.md from the tables of the function objects and from
-results.json, agreeing or not, and with --readme also puts it into FILE,
-between the markers below. The paper's force and work curves are pictures: no
-number is taken from them, only what its text says.
+writes CASE/results.json, of what the paper tells of, and from it and the
+tables of the function objects CASE/comparison.md, agreeing or not; with
+--readme also puts it into FILE, between the markers below. The paper's force
+and work curves are pictures: no number is taken from them, only what its text
+says.
 """
 
 import argparse
@@ -17,12 +18,25 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
-from bolus_validation.foam_files import FoamFileError
-from bolus_validation.locking import alone_in
-from bolus_validation.results import LOADED, Table, optional_table
+from bolus_results import markdown
+from bolus_results.fields import Case
+from bolus_results.foam_files import FoamFileError
+from bolus_results.locking import alone_in
+from bolus_results.measure import Measure
+from bolus_results.results import write_json
+from bolus_results.tables import Table, optional_table
 
 BEGIN = "<!-- comparison: begin, made by scripts/results: do not edit -->"
 END = "<!-- comparison: end -->"
+
+# The ten times of Fig. 8, and that to which mass and surface are related [s]
+TIMES = (7.5, 9.0, 10.5, 12.5, 14.0, 18.0, 23.0, 25.5, 29.0, 32.0)
+REFERENCE = 7.5
+
+# Bolus carrying less is unloaded: a tenth of the static yield stress [Pa]
+LOADED = 410.0
+
+MEASURE = Measure(TIMES, REFERENCE, LOADED)
 
 # (what this run has, does it agree): None for what the run does not tell
 Finding = tuple[str, bool | str | None]
@@ -442,9 +456,7 @@ def comparison(path) -> str:
     for row, here, verdict in found:
         word = verdict if isinstance(verdict, str) else _VERDICT[verdict]
         count[word] += 1
-        lines.append(
-            f"| {row.when} | {row.paper} | {here} | {row.agrees_if} | {word} |"
-        )
+        lines.append((row.when, row.paper, here, row.agrees_if, word))
 
     return "\n".join(
         [
@@ -455,31 +467,19 @@ def comparison(path) -> str:
             f"{count['yes']} rows agree, {count['in part']} in part,"
             f" {count['no']} do not, {count['-']} cannot be told.",
             "",
-            "| when | the paper | this run | agrees if | agrees |",
-            "|---|---|---|---|---|",
-            *lines,
+            markdown.table(
+                ("when", "the paper", "this run", "agrees if", "agrees"), lines
+            ),
             "",
             _NOTES,
         ]
     )
 
 
-def put_between_markers(readme: Path, text: str) -> None:
-    """Replace what stands between the markers of a file."""
-    old = readme.read_text()
-    if old.count(BEGIN) != 1 or old.count(END) != 1:
-        raise FoamFileError(
-            f"{readme}: must have these two lines, each once:\n{BEGIN}\n{END}"
-        )
-    before, rest = old.split(BEGIN)
-    after = rest.split(END)[1]
-    readme.write_text(f"{before}{BEGIN}\n\n{text}\n{END}{after}")
-
-
 def main(arguments=None) -> int:
     """Command line."""
     parser = argparse.ArgumentParser(
-        prog="report", description="Compare a run of case A with the paper."
+        prog="paper", description="Compare a run of case A with the paper."
     )
     parser.add_argument("case", type=Path)
     parser.add_argument(
@@ -490,16 +490,18 @@ def main(arguments=None) -> int:
     )
     options = parser.parse_args(arguments)
     try:
-        text = comparison(options.case)
+        Case(options.case)
         target = options.case / "comparison.md"
         with alone_in(options.case):
+            print(write_json(options.case, MEASURE))
+            text = comparison(options.case)
             target.write_text(text)
         print(target)
         if options.readme:
-            put_between_markers(options.readme, text)
+            markdown.put(options.readme, BEGIN, END, text)
             print(options.readme)
     except (FoamFileError, OSError) as error:
-        print(f"report: {error}", file=sys.stderr)
+        print(f"paper: {error}", file=sys.stderr)
         return 1
     return 0
 

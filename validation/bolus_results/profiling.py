@@ -8,7 +8,7 @@ On with -set system/controlDict:profiling.active=true.
 import re
 from pathlib import Path
 
-from bolus_validation.foam_files import read_text
+from bolus_results.foam_files import read_text
 
 # What is shown: the names that the solver gives them, and OpenFOAM its own
 PHASES = {

@@ -2,7 +2,7 @@
 # Copyright (C) 2026 the bolusFoam developers
 """A run in a dozen lines, from its results.json.
 
-python -m bolus_validation.summary CASE
+python -m bolus_results.summary CASE
 
 writes CASE/summary.txt. What the run does not have is left out.
 """
@@ -13,8 +13,9 @@ import re
 import sys
 from pathlib import Path
 
-from bolus_validation.foam_files import FoamFileError
-from bolus_validation.locking import alone_in
+from bolus_results.foam_files import FoamFileError
+from bolus_results.locking import alone_in
+from bolus_results.measure import number_at
 
 # (title, path of the number in results.json, factor, unit shown, format)
 _LINES = (
@@ -105,16 +106,6 @@ _LINES = (
 )
 
 
-def _find(results: dict, path: str) -> dict | None:
-    """The number at a path, None if there is none."""
-    found = results
-    for key in path.split("."):
-        if not isinstance(found, dict) or key not in found:
-            return None
-        found = found[key]
-    return found
-
-
 def summary(path) -> str:
     """The summary of a case that has a results.json."""
     path = Path(path)
@@ -125,7 +116,7 @@ def summary(path) -> str:
 
     lines = []
     for title, place, factor, unit, form in _LINES:
-        number = _find(results, place)
+        number = number_at(results, place)
         if number is None:
             continue
         scaled = factor * number["value"]
@@ -143,8 +134,8 @@ def summary(path) -> str:
     if comparison.is_file():
         count = re.search(r"^\d+ rows agree.*$", comparison.read_text(), re.M)
         if count:
-            lines.append(f"{'the paper':<28}{count.group(0).rstrip('.')}")
-            lines.append(f"{'':<28}row by row: comparison.md")
+            lines.append(f"{'comparison':<28}{count.group(0).rstrip('.')}")
+            lines.append(f"{'':<28}row by row in comparison.md")
     return "\n".join(lines) + "\n"
 
 
