@@ -25,11 +25,13 @@ ROOT = Path(__file__).parents[2]
 BASE = ROOT / "run" / "validate" / "mutations"
 TREE = BASE / "tree"
 
-CELL = "src/coupled/coupledSystem/coupledSystemCell.C"
-SYSTEM = "src/coupled/coupledSystem/coupledSystem.C"
-SOLVE = "src/coupled/coupledSystem/coupledSystemSolve.C"
+MIXTURE = "src/mixture/laminate/laminate.C"
+GAS = "src/phases/gas/gas.C"
+FRICTION = "src/contact/wallFriction/wallFriction.C"
+NEWTON = "src/newton/newtonSolver/newtonSolver.C"
+ELIMINATION = "src/mixture/pressureElimination/pressureElimination.H"
+TURNING = "src/coupled/laggedTurning/laggedTurning.C"
 TANGENT = "src/linear/condensedTangent/condensedTangent.C"
-ENERGY = "src/coupled/coupledSystem/coupledSystemEnergy.C"
 SPACE = "src/space/nodalSpace/nodalSpace.C"
 HISTORY = "src/transport/historyFlux/historyFlux.C"
 FLUX = "src/transport/bolusFlux/bolusFlux.C"
@@ -186,9 +188,9 @@ MUTATIONS = (
     ),
     Mutation(
         "crumbs without cohesion",
-        "src/phases/voidLaw/voidLaw.H",
-        "const scalar pt = pv + cohesion;",
-        "const scalar pt = pv;",
+        GAS,
+        "const scalar pt = p + holds_[c];",
+        "const scalar pt = p;",
         "test_void.py",
     ),
     Mutation(
@@ -228,23 +230,23 @@ MUTATIONS = (
     ),
     Mutation(
         "stress that never turns where it should turn later",
-        CELL,
+        MIXTURE,
         "return mag(r.r.s) / max(mag(whole.s), VSMALL) * whole.s;",
         "return r.r.s;",
         "test_solver.py -k stress_turns",
     ),
     Mutation(
         "rows of stress that turns later never doubled",
-        "src/coupled/coupledSystem/coupledSystemSolve.C",
-        "min(max(2 * turnLaterRow_, leastLagTurningSteps_),",
-        "min(max(turnLaterRow_, leastLagTurningSteps_),",
+        TURNING,
+        "max(2 * row_, least)",
+        "max(row_, least)",
         "test_solver_contact.py -k more_steps_turn",
     ),
     Mutation(
         "rows of stress that turns later as long as the last",
-        "src/coupled/coupledSystem/coupledSystem.C",
-        "turnLaterRow_ = 0;",
-        "turnLaterRow_ = max(turnLaterRow_, 0);",
+        TURNING,
+        "row_ = 0;",
+        "row_ = max(row_, 0);",
         "test_solver_contact.py -k more_steps_turn",
     ),
     Mutation(
@@ -256,7 +258,7 @@ MUTATIONS = (
     ),
     Mutation(
         "lagged friction with twice the pressure",
-        CELL,
+        FRICTION,
         "k.pn = lagged_ ? state_.p[c] -",
         "k.pn = lagged_ ? 2 * state_.p[c] -",
         "test_solver_contact.py -k lagged_friction",
@@ -277,7 +279,7 @@ MUTATIONS = (
     ),
     Mutation(
         "subdomains of Schwarz's method that do not overlap",
-        SOLVE,
+        "src/linear/linearOptions/linearOptions.C",
         "-bolus_velocity_pc_asm_overlap 1",
         "-bolus_velocity_pc_asm_overlap 0",
         "test_solver.py -k subdomains_overlap",
@@ -291,36 +293,36 @@ MUTATIONS = (
     ),
     Mutation(
         "closing voids extrapolated from where they are",
-        SOLVE,
-        "J->extrapolate(c, weight_[c] / rate0_ * tangent.excess);",
+        "src/coupled/coupledSystem/coupledSystemAssemble.C",
+        "J.extrapolate(c, weight_[c] / unknowns_.rate0 * t.excess);",
         "",
         "test_cutting.py -k shortcuts",
     ),
     Mutation(
         "consistent tangent where the stress has turned",
-        CELL,
+        "src/mixture/flowSecant/flowSecant.C",
         "r.r.dqdqTrial = r.r.theta;",
         "",
         "test_gastric.py -k secant",
     ),
     Mutation(
         "pressure of cells with room not eliminated",
-        SOLVE,
-        "if (!eliminate_ || eliminateRoom_ == 0) return;",
+        "src/coupled/stepUnknowns/stepUnknowns.C",
+        "if (!eliminate_ || !elimination.active()) return;",
         "return;",
         "test_cutting.py -k shortcuts",
     ),
     Mutation(
         "pressure of wisps not eliminated where Newton's method is stuck",
-        SOLVE,
-        "eliminateFrom_ *= 0.05;",
-        "eliminateFrom_ *= 0.99;",
+        ELIMINATION,
+        "from_ *= 0.05;",
+        "from_ *= 0.99;",
         "test_cutting.py -k wisps",
     ),
     Mutation(
         "Newton's method left to crawl",
-        SOLVE,
-        "system.stalled_ == 3",
+        NEWTON,
+        "stalled_ == 3",
         "false",
         "test_cutting.py -k wisps",
     ),
@@ -333,14 +335,14 @@ MUTATIONS = (
     ),
     Mutation(
         "damaged bolus keeps its tension",
-        SYSTEM,
-        "phi_[c] = damaged_[c] || atWall",
-        "phi_[c] = atWall",
+        GAS,
+        "mobility_[c] = cell.damaged || cell.atWall",
+        "mobility_[c] = cell.atWall",
         "test_solver_damage.py -k damaged_bar_carries_no_force_in_tension",
     ),
     Mutation(
         "damaged bolus loses its pressure",
-        CELL,
+        MIXTURE,
         "r.P = -(a * p + (1 - a) * r.pv);",
         "r.P = -(damaged_[c] ? 0 : 1) * (a * p + (1 - a) * r.pv);",
         "test_solver_damage.py -k damaged_bar_carries_pressure",
@@ -382,23 +384,23 @@ MUTATIONS = (
     ),
     Mutation(
         "a wall pulls",
-        SYSTEM,
-        "phi_[c] = damaged_[c] || atWall",
-        "phi_[c] = damaged_[c]",
+        GAS,
+        "mobility_[c] = cell.damaged || cell.atWall",
+        "mobility_[c] = cell.damaged",
         "test_solver_contact.py -k pulled_away",
     ),
     Mutation(
         "no friction",
-        CELL,
+        FRICTION,
         "if (k.pn <= 0) return false;",
         "return false;",
         "test_solver_contact.py -k sliding_block",
     ),
     Mutation(
         "friction fades where the bolus ends",
-        CELL,
-        "k.grip = a_[c];",
-        "k.grip = sqr(a_[c]);",
+        FRICTION,
+        "const scalar w = b.alpha * k.weight[fp];",
+        "const scalar w = sqr(b.alpha) * k.weight[fp];",
         "test_physics_contact.py -k slidingBlock",
     ),
     Mutation(
@@ -460,7 +462,7 @@ MUTATIONS = (
     ),
     Mutation(
         "full steps are never tried",
-        "src/coupled/coupledSystem/coupledSystemSolve.C",
+        NEWTON,
         "mayLeap_ = fullSteps_ > 0;",
         "mayLeap_ = false;",
         "test_cases.py -k full_steps",
@@ -554,14 +556,14 @@ MUTATIONS = (
     ),
     Mutation(
         "plastic dissipation 5 % too large",
-        ENERGY,
+        "src/mixture/laminate/laminateEnergy.C",
         "rate * r.r.q * r.r.dEpsP;",
         "1.05 * rate * r.r.q * r.r.dEpsP;",
         "test_energy.py -k dissipates_stress",
     ),
     Mutation(
         "friction work 5 % too large",
-        ENERGY,
+        FRICTION,
         "area * factor * (k.slip & k.step)",
         "1.05 * area * factor * (k.slip & k.step)",
         "test_energy.py -k friction_takes",
