@@ -20,6 +20,10 @@ from pathlib import Path
 
 from paraview import simple as pv
 
+# ParaView's Python knows nothing of scripts/environment
+sys.path.append(str(Path(__file__).resolve().parents[1] / "validation"))
+from bolus_results.locking import FolderBusy, alone_in  # noqa: E402
+
 FIELDS = {
     "sigmaEq": ("Viridis (matplotlib)", (0, 16e3)),
     "triaxiality": ("Cool to Warm", (-3, 3)),
@@ -80,9 +84,8 @@ def revolved(source):
     return back
 
 
-def main():
+def show(options):
     """Build the four views, save picture and state."""
-    options = arguments()
     (options.case / "case.foam").touch()
     inside = reader(options.case, ["internalMesh"])
     times = list(inside.TimestepValues)
@@ -157,6 +160,16 @@ def main():
     )
     print(options.png)
     print(options.state)
+
+
+def main():
+    """Alone in the case's folder, where case.foam is made too."""
+    options = arguments()
+    try:
+        with alone_in(options.case):
+            show(options)
+    except FolderBusy as error:
+        sys.exit(f"viewCase.py: {error}")
 
 
 if __name__ == "__main__":

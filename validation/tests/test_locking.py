@@ -102,6 +102,24 @@ def test_commands_that_write_into_a_run_leave_a_living_one_alone(
     assert after == before
 
 
+def test_paraview_leaves_a_living_run_alone(tmp_path, hold):
+    case = tmp_path / "case"
+    wedge_mesh(case, 0.04, 0.02, 4, 2)
+    # Without ParaView: it must not get as far as to use it
+    (tmp_path / "paraview").mkdir()
+    (tmp_path / "paraview" / "simple.py").touch()
+    process = hold(case)
+    done = subprocess.run(
+        [sys.executable, STUDIES.parents[1] / "scripts" / "viewCase.py", case],
+        env=os.environ | {"PYTHONPATH": str(tmp_path)},
+        capture_output=True,
+        text=True,
+    )
+    assert done.returncode == 1
+    assert f"process {process.pid} (" in done.stderr
+    assert not (case / "case.foam").exists()
+
+
 def test_two_reports_do_not_mix_in_one_folder(tmp_path, hold, capsys):
     wedge_mesh(tmp_path, 0.04, 0.02, 4, 2)
     (tmp_path / "postProcessing").mkdir()
