@@ -37,51 +37,95 @@ void Foam::overflow::setOpen()
 }
 
 
-void Foam::overflow::setShares(const scalarField& alpha, const bool first)
+void Foam::overflow::setCells(const scalarField& alpha, const scalar fullest)
 {
     const label nInternal = mesh_.nInternalFaces();
     const labelList& own = mesh_.faceOwner();
-    const scalarField& V = mesh_.V();
+    const labelList& nei = mesh_.faceNeighbour();
 
-    // Room of the cells; excess goes where there is room, in proportion
-    forAll(room_, c) room_[c] = max(1 - alpha[c], scalar(0)) * V[c];
-    exchange_.cells(room_, 1, roomBeyond_);
-
-    around_ = 0;
-    forAll(own, f)
+    for (const label f : faces_) isFace_[f] = false;
+    for (const label c : cells_) isCell_[c] = false;
+    full_.clear();
+    faces_.clear();
+    cells_.clear();
+    auto add = [&](const label f)
     {
-        if (!open_[f]) continue;
-        if (f < nInternal)
-        {
-            const label N = mesh_.faceNeighbour()[f];
-            around_[own[f]] += room_[N];
-            around_[N] += room_[own[f]];
-        }
-        else
-        {
-            around_[own[f]] += roomBeyond_[exchange_.at(f)];
-        }
+        if (!open_[f] || isFace_[f]) return;
+        isFace_[f] = true;
+        faces_.append(f);
+    };
+    auto touch = [&](const label c)
+    {
+        if (isCell_[c]) return;
+        isCell_[c] = true;
+        cells_.append(c);
+    };
+    forAll(alpha, c)
+    {
+        if (alpha[c] <= fullest) continue;
+        full_.append(c);
+        for (const label f : mesh_.cells()[c]) add(f);
     }
-
-    // Part of the cell's excess per volume of room; half of the room at
-    // most, because other cells may want it too
-    share_ = 0;
-    excess_ = 0;
-    forAll(share_, c)
+    // The cell beyond may be too full
+    for (const label f : exchange_.faces()) add(f);
+    for (const label f : faces_)
     {
-        const scalar e = alpha[c] - 1;
-        if (first && e > 0.1 * tolerance && around_[c] > VSMALL)
+        touch(own[f]);
+        if (f < nInternal) touch(nei[f]);
+    }
+}
+
+
+Foam::scalar Foam::overflow::room(
+    const label facei,
+    const label celli,
+    const scalarField& alpha
+) const
+{
+    const bool internal = facei < mesh_.nInternalFaces();
+    const label b = internal ? -1 : exchange_.at(facei);
+    const label own = mesh_.faceOwner()[facei];
+    const label other = !internal ? -1
+        : own == celli            ? mesh_.faceNeighbour()[facei]
+                                  : own;
+    return internal ? max(1 - alpha[other], scalar(0)) * mesh_.V()[other]
+                    : max(1 - alphaBeyond_[b], scalar(0)) * VBeyond_[b];
+}
+
+
+void Foam::overflow::setShares(const scalarField& alpha, const bool first)
+{
+    const scalarField& V = mesh_.V();
+    exchange_.cells(alpha, 1, alphaBeyond_);
+    for (const label c : full_)
+    {
+        if (!first)
         {
-            share_[c] = min(e * V[c] / around_[c], scalar(0.5));
+            excess_[c] = alpha[c] - (1 + squeeze_);
+            continue;
         }
-        if (!first) excess_[c] = max(alpha[c] - (1 + squeeze_), scalar(0));
+        // In proportion to the room around; half of it at most, because other
+        // cells may want it too
+        scalar around = 0;
+        for (const label f : mesh_.cells()[c])
+        {
+            if (open_[f]) around += room(f, c, alpha);
+        }
+        if (around > VSMALL)
+        {
+            share_[c] = min((alpha[c] - 1) * V[c] / around, scalar(0.5));
+        }
     }
     exchange_.cells(share_, 1, shareBeyond_);
     exchange_.cells(excess_, 1, excessBeyond_);
 }
 
 
-Foam::scalar Foam::overflow::setFluxes(const scalar deltaT, scalarField& total)
+Foam::scalar Foam::overflow::setFluxes(
+    const scalarField& alpha,
+    const scalar deltaT,
+    scalarField& total
+)
 {
     const label nInternal = mesh_.nInternalFaces();
     const labelList& own = mesh_.faceOwner();
@@ -91,17 +135,16 @@ Foam::scalar Foam::overflow::setFluxes(const scalar deltaT, scalarField& total)
     // Mass over the faces, with the density of where it comes from
     exchange_.cells(rho, 1, rhoBeyond_);
     scalar passed = 0;
-    F_ = 0;
-    forAll(own, f)
+    for (const label f : faces_)
     {
-        if (!open_[f]) continue;
         const label P = own[f];
         const bool internal = f < nInternal;
         const label b = internal ? -1 : exchange_.at(f);
         const label N = internal ? mesh_.faceNeighbour()[f] : -1;
         const scalar rhoN = internal ? rho[N] : rhoBeyond_[b];
-        F_[f] = share_[P] * rho[P] * (internal ? room_[N] : roomBeyond_[b])
-            - (internal ? share_[N] : shareBeyond_[b]) * rhoN * room_[P];
+        const scalar roomP = max(1 - alpha[P], scalar(0)) * V[P];
+        F_[f] = share_[P] * rho[P] * room(f, P, alpha)
+            - (internal ? share_[N] : shareBeyond_[b]) * rhoN * roomP;
 
         // What is beyond "squeezed" levels out, a twelfth a face: stable
         // with up to six faces
@@ -116,6 +159,7 @@ Foam::scalar Foam::overflow::setFluxes(const scalar deltaT, scalarField& total)
             passed -= F_[f];
         total[f] += F_[f] / deltaT;
     }
+    for (const label c : full_) share_[c] = excess_[c] = 0;
     return passed;
 }
 
@@ -130,13 +174,15 @@ void Foam::overflow::move(scalarField& m, scalarField& alpha)
 
     exchange_.cells(q, n, memoryBeyond_);
     carried_.setSize(q.size());
-    forAll(m, c)
+    for (const label c : cells_)
     {
         mass_[c] = m[c] * V[c];
         for (label i = c * n; i < (c + 1) * n; ++i)
+        {
             carried_[i] = mass_[c] * q[i];
+        }
     }
-    forAll(F_, f)
+    for (const label f : faces_)
     {
         if (F_[f] == 0) continue;
         const bool internal = f < nInternal;
@@ -153,7 +199,7 @@ void Foam::overflow::move(scalarField& m, scalarField& alpha)
             if (internal) carried_[N * n + k] += F_[f] * qF[k];
         }
     }
-    forAll(m, c)
+    for (const label c : cells_)
     {
         const bool empty = mass_[c] <= 1e-12 * V[c];
         for (label i = c * n; i < (c + 1) * n; ++i)
@@ -184,13 +230,13 @@ Foam::overflow::overflow(
         {0, false, 0.1, true},
         0.005
     )),
-    F_(mesh.nFaces(), Zero)
-{
-    for (scalarField* cells : {&room_, &around_, &share_, &excess_, &mass_})
-    {
-        cells->setSize(mesh_.nCells(), Zero);
-    }
-}
+    isFace_(mesh.nFaces(), false),
+    isCell_(mesh.nCells(), false),
+    share_(mesh.nCells(), Zero),
+    excess_(mesh.nCells(), Zero),
+    F_(mesh.nFaces(), Zero),
+    mass_(mesh.nCells(), Zero)
+{}
 
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
@@ -214,8 +260,9 @@ Foam::scalar Foam::overflow::spill(
         {
             break;
         }
+        setCells(alpha, 1 + (first ? 0.1 * tolerance : squeeze_));
         setShares(alpha, first);
-        spilled += setFluxes(deltaT, total);
+        spilled += setFluxes(alpha, deltaT, total);
         move(m, alpha);
     }
 
