@@ -6,42 +6,31 @@ A piston pushes a bar of bolus, half as high as the channel, which has a dye in
 its rear half: see test_transport. Its age is the time.
 """
 
-import os
 import re
 import shutil
-import subprocess
-from pathlib import Path
 
 import numpy as np
 import pytest
-from bolus_validation.fields import Case
-from bolus_validation.results import read_table
-from bolus_validation.specimens import (
+from bolus_cases.page_library import blocks, built, is_formatted
+from bolus_cases.specimens import (
     GRIPPING,
     SLIDING,
     box,
     ramp,
     replace,
     solve,
-    solve_in_two,
 )
-from bolus_validation.synthetic import run, write_field
+from bolus_cases.synthetic import run, run_parallel, write_field
+from bolus_results.fields import Case
+from bolus_results.tables import read_table
 
-ROOT = Path(__file__).parents[2]
-PAGE = ROOT / "doc" / "adding-a-carried-field.md"
+PAGE = "adding-a-carried-field"
 LENGTH, HEIGHT = 0.030, 0.005  # of the channel [m]
 BAR = (0.008, 0.0025)  # [m]
 WAY = 0.004  # of the piston in 1 s [m]
 
 
-def blocks(language):
-    """The page's blocks of code in a language."""
-    found = re.findall(r"^```(\w+)\n(.*?)^```", PAGE.read_text(), re.M | re.S)
-    return [text for its, text in found if its == language]
-
-
-HEADER, CODE = blocks("cpp")
-FIELDS, MEAN = blocks("foam")
+FIELDS, MEAN = blocks(PAGE, "foam")
 
 
 @pytest.fixture(scope="module")
@@ -53,29 +42,7 @@ def folder(tmp_path_factory):
 @pytest.fixture(scope="module", autouse=True)
 def library(folder):
     """The page's library, where programs look for it."""
-    source = folder / "myFields"
-    (source / "Make").mkdir(parents=True)
-    (source / "age.H").write_text(HEADER)
-    (source / "age.C").write_text(CODE)
-    for name, text in zip(("files", "options"), blocks("make"), strict=True):
-        (source / "Make" / name).write_text(text)
-    built = folder / "lib"
-    built.mkdir()
-    # Where -lbolusHistory is looked for
-    for library in Path(os.environ["FOAM_USER_LIBBIN"]).glob("libbolus*.so"):
-        (built / library.name).symlink_to(library)
-    done = subprocess.run(
-        ["wmake", "libso"],
-        cwd=source,
-        env=os.environ | {"FOAM_USER_LIBBIN": str(built), "PWD": str(source)},
-        capture_output=True,
-        text=True,
-        check=False,
-    )
-    assert done.returncode == 0, done.stderr[-3000:]
-    with pytest.MonkeyPatch.context() as patch:
-        path = f"{built}:{os.environ.get('LD_LIBRARY_PATH', '')}"
-        patch.setenv("LD_LIBRARY_PATH", path)
+    with built(PAGE, "age", folder):
         yield
 
 
@@ -135,16 +102,7 @@ def amount_at_the_start():
 
 
 def test_the_code_of_the_page_has_the_form_that_is_checked():
-    for text in (HEADER, CODE):
-        done = subprocess.run(
-            ["clang-format", f"--style=file:{ROOT / '.clang-format'}"],
-            input=text,
-            capture_output=True,
-            text=True,
-            check=True,
-        )
-        assert done.stdout == text
-        assert "SPDX-License-Identifier: GPL-3.0-or-later" in text
+    assert is_formatted(PAGE)
 
 
 def test_the_mean_age_is_the_time(pushed):
@@ -196,7 +154,7 @@ def test_a_run_that_goes_on_has_the_same_fields(folder, pushed):
 
 def test_two_ranks_give_the_serial_fields(folder, pushed):
     case = prepare(folder / "ranks")
-    solve_in_two(case)
+    run_parallel(case, "bolusFoam")
     run(case, "reconstructPar", "-latestTime")
     for name in ("age", "dye"):
         assert Case(case).field(1, name) == pytest.approx(

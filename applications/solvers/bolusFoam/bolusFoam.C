@@ -161,7 +161,7 @@ int main(int argc, char* argv[])
         mesh.solutionDict().subOrEmptyDict("transport")
     );
     stepControl control(runTime);
-    energyBooks energy(runTime, fields, law, system.inertia());
+    energyBooks energy(runTime, fields, law, system);
     progress report(runTime, fields, control, energy);
 
     SHA1Digest numerics;

@@ -54,7 +54,7 @@ void Foam::cellForce::select(
     forAll(names, i)
     {
         const word& name = names[i];
-        const bool twice = names.find(name) < i;
+        const bool twice = i != names.rfind(name) || i != names.find(name);
         if (twice || !dictionaryConstructorTablePtr_
             || !dictionaryConstructorTablePtr_->found(name))
         {

@@ -38,15 +38,22 @@ Foam::carriedFields::carriedFields(
     }
 
     // Misspelt coefficients would otherwise be the defaults, in silence
+    wordList chosen(names);
+    for (const word& others : {word("phases"), word("forces")})
+    {
+        chosen.append(
+            bolusDict.lookupOrDefault<wordList>(others, wordList())
+        );
+    }
     for (const entry& e : bolusDict)
     {
         const word& key = e.keyword();
         if (key.endsWith("Coeffs")
-            && !names.found(key.substr(0, key.size() - 6)))
+            && !chosen.found(key.substr(0, key.size() - 6)))
         {
             FatalIOErrorInFunction(bolusDict)
-                << "entry " << key << ": there is no such field; valid are"
-                << " coefficients of one of the entry fields: " << names
+                << "entry " << key << ": of no field, phase or force; valid are"
+                << " coefficients of those chosen: " << chosen
                 << exit(FatalIOError);
         }
     }
