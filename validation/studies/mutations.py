@@ -410,8 +410,8 @@ MUTATIONS = (
     Mutation(
         "the closed lumen is not sealed",
         SPACE,
-        'foundObject<labelIOList>("closedPoints")',
-        'foundObject<labelIOList>("none")',
+        "full[pointNode_[p]] = true;",
+        "full[pointNode_[p]] = false;",
         "test_gastric.py -k closed_pylorus",
     ),
     Mutation(

@@ -76,6 +76,9 @@ Foam::energyBooks::energyBooks(
     law_(law),
     inertia_(inertia)
 {
+    // For those who read these books (energyBalance)
+    set("parts", parts());
+
     if (found("walls")) return;
 
     keep("walls", 0);

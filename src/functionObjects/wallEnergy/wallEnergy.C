@@ -88,25 +88,17 @@ Foam::functionObjects::wallEnergy::wallEnergy(
     const Time& runTime,
     const dictionary& dict
 ) :
-    bolusMonitor(
-        name,
-        runTime,
-        dict,
-        typeName,
-        {"alpha", "mass"},
-        axialFrame::entries(
-            []()
-            {
-                wordList known({"patches", "thickness"});
-                known.append(vanDerWaals::entries());
-                return known;
-            }()
+    bolusMonitor(name, runTime, dict, typeName, {"alpha", "mass"}),
+    patches_(readPatches("patches", true)),
+    frame_(mesh_, entries()),
+    thickness_(
+        entries().number(
+            "thickness",
+            "of the relaxed wall [m]",
+            entryReader::positive
         )
     ),
-    patches_(readPatches(dict, "patches", true)),
-    frame_(mesh_, dict),
-    thickness_(dict.get<scalar>("thickness")),
-    law_(dict),
+    law_(entries()),
     told_(false),
     relaxed_(IOobject(
         "points",
@@ -118,13 +110,6 @@ Foam::functionObjects::wallEnergy::wallEnergy(
         false
     ))
 {
-    if (!(thickness_ > 0))
-    {
-        FatalIOErrorInFunction(dict)
-            << "entry thickness: " << thickness_ << "; valid are lengths > 0 m"
-            << exit(FatalIOError);
-    }
-
     begin();
 }
 

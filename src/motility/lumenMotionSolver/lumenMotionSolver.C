@@ -3,8 +3,9 @@
 
 #include "lumenMotionSolver.H"
 #include "DynamicList.H"
+#include "closedPoints.H"
 #include "addToRunTimeSelectionTable.H"
-#include "dictionaryCheck.H"
+#include "entryReader.H"
 #include "emptyPolyPatch.H"
 #include "polyMesh.H"
 #include "primitiveMeshTools.H"
@@ -147,24 +148,36 @@ Foam::lumenMotionSolver::lumenMotionSolver(
 ) :
     points0MotionSolver(mesh, dict, typeName),
     motion_(lumenMotion::New(mesh.time())),
-    closedPoints_(IOobject("closedPoints", mesh.time().timeName(), mesh))
+    closedPoints_(IOobject(closedPoints::name, mesh.time().timeName(), mesh))
 {
     // Not coeffDict(), which is all of dynamicMeshDict if there is none
     const word coeffsName(typeName + "Coeffs");
 
-    const dictionary& coeffs = dict.found(coeffsName)
-        ? dictionaryCheck::section(dict, coeffsName)
-        : dictionary::null;
-
-    dictionaryCheck::entries(coeffs, {}, {"checkSamples", "wallTolerance"});
+    entryReader read(
+        dict.found(coeffsName)
+            ? entryReader::subDictionary(
+                  dict, coeffsName, "checkSamples, wallTolerance"
+              )
+            : dictionary::null
+    );
+    const scalar tolerance = read.number(
+        "wallTolerance",
+        "of points on the wall, in parts of its radius [-]",
+        entryReader::positive,
+        1e-5
+    );
+    const label nSamples = read.wholeNumber(
+        "checkSamples",
+        "times at which the cells are checked",
+        {0, true, 999999, true},
+        200
+    );
+    read.rejectOthers();
 
     checkDimensions();
 
     motion_->checkCovers(points0());
 
-    const scalar tolerance = coeffs.found("wallTolerance")
-        ? dictionaryCheck::positive(coeffs, "wallTolerance")
-        : 1e-5;
     motion_->checkAxis(mesh, points0(), tolerance);
     motion_->checkWall(points0(), tolerance);
 
@@ -176,13 +189,7 @@ Foam::lumenMotionSolver::lumenMotionSolver(
 
     motion_->wall().writeTimeline(Info, returnReduce(xEnd, maxOp<scalar>()));
 
-    checkCells(
-        coeffs.found("checkSamples")
-            ? dictionaryCheck::inRange(
-                  coeffs, "checkSamples", label(0), label(1000000)
-              )
-            : 200
-    );
+    checkCells(nSamples);
 }
 
 
