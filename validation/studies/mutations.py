@@ -408,6 +408,20 @@ MUTATIONS = (
         "test_physics_contact.py -k separation",
     ),
     Mutation(
+        "radii of the wall at another time",
+        "src/motility/lumenMotionSolver/lumenMotionSolver.C",
+        "known.first() == t",
+        "known.first() < GREAT",
+        "test_motility.py -k equations_12_to_15",
+    ),
+    Mutation(
+        "quantiles of one rank",
+        "src/functionObjects/weightedSample/weightedSample.C",
+        "returnReduce(n > 0 ? sums_[n - 1] : 0, sumOp<scalar>())",
+        "(n > 0 ? sums_[n - 1] : 0)",
+        "test_bolus_functions.py -k quantiles",
+    ),
+    Mutation(
         "the closed lumen is not sealed",
         SPACE,
         "full[pointNode_[p]] = true;",

@@ -6,6 +6,7 @@
 #include "Pstream.H"
 #include "PstreamReduceOps.H"
 #include "fvMesh.H"
+#include "pointIOField.H"
 
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
 
@@ -42,14 +43,15 @@ Foam::scalarList Foam::functionObjects::wallEnergy::values()
     scalar beyond = 0;
     scalar most = 0;
     scalar least = GREAT;
+    label facei = 0;
     for (const label patchi : patches_)
     {
         const polyPatch& patch = mesh_.boundaryMesh()[patchi];
         for (const face& f : static_cast<const faceList&>(patch))
         {
-            const scalar A0 = f.mag(relaxed_);
+            const scalar A0 = relaxedArea_[facei];
             const scalar hoop = frame_.radius(f.centre(mesh_.points()))
-                / frame_.radius(f.centre(relaxed_));
+                / relaxedRadius_[facei++];
             const scalar axial = f.mag(mesh_.points()) / (A0 * hoop);
             const scalar thick = law_.thickness(hoop, axial);
             energy += law_.energy(hoop, axial, thick) * thickness_ * A0;
@@ -99,8 +101,9 @@ Foam::functionObjects::wallEnergy::wallEnergy(
         )
     ),
     law_(entries()),
-    told_(false),
-    relaxed_(IOobject(
+    told_(false)
+{
+    const pointIOField relaxed(IOobject(
         "points",
         runTime.constant(),
         polyMesh::meshSubDir,
@@ -108,8 +111,17 @@ Foam::functionObjects::wallEnergy::wallEnergy(
         IOobject::MUST_READ,
         IOobject::NO_WRITE,
         false
-    ))
-{
+    ));
+    for (const label patchi : patches_)
+    {
+        const polyPatch& patch = mesh_.boundaryMesh()[patchi];
+        for (const face& f : static_cast<const faceList&>(patch))
+        {
+            relaxedArea_.append(f.mag(relaxed));
+            relaxedRadius_.append(frame_.radius(f.centre(relaxed)));
+        }
+    }
+
     begin();
 }
 
