@@ -417,8 +417,8 @@ MUTATIONS = (
     Mutation(
         "quantiles of one rank",
         "src/functionObjects/weightedSample/weightedSample.C",
-        "returnReduce(n > 0 ? sums_[n - 1] : 0, sumOp<scalar>())",
-        "(n > 0 ? sums_[n - 1] : 0)",
+        "total_ = returnReduce(sum, sumOp<scalar>());",
+        "total_ = sum;",
         "test_bolus_functions.py -k quantiles",
     ),
     Mutation(
