@@ -532,6 +532,13 @@ MUTATIONS = (
         "test_adding_a_field.py -k mean_age",
     ),
     Mutation(
+        "the gradient at the rim is that of a whole mesh",
+        HISTORY,
+        "if (some && !all) rim_.append(c);",
+        "if (some && !all && false) rim_.append(c);",
+        "test_transport.py -k stressed_disc",
+    ),
+    Mutation(
         "the pressure is not the first of the memories",
         PACKED,
         "    Swap(used_.first(), used_.last());\n",
