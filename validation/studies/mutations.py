@@ -543,7 +543,7 @@ MUTATIONS = (
         PACKED,
         "    Swap(used_.first(), used_.last());\n",
         "",
-        "test_transport.py -k mass_is_kept",
+        "test_transport.py -k pressure_leaves",
     ),
     Mutation(
         "waves with exponent 6 for 5",
