@@ -548,11 +548,18 @@ MUTATIONS = (
         "test_adding_a_field.py -k mean_age",
     ),
     Mutation(
+        "the gradient at the rim is that of a whole mesh",
+        HISTORY,
+        "if (some && !all) rim_.append(c);",
+        "if (some && !all && false) rim_.append(c);",
+        "test_transport.py -k stressed_disc",
+    ),
+    Mutation(
         "the pressure is not the first of the memories",
         PACKED,
         "    Swap(used_.first(), used_.last());\n",
         "",
-        "test_transport.py -k mass_is_kept",
+        "test_transport.py -k pressure_leaves",
     ),
     Mutation(
         "waves with exponent 6 for 5",
