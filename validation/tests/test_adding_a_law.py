@@ -45,6 +45,15 @@ def wmake(source, built):
     assert done.returncode == 0, done.stderr[-3000:]
 
 
+def libraries(folder, *names):
+    """A folder with those that are linked to, libbolusInput among them."""
+    folder.mkdir()
+    for name in {"Input", *names}:
+        built = Path(os.environ["FOAM_USER_LIBBIN"], f"libbolus{name}.so")
+        (folder / built.name).symlink_to(built)
+    return folder
+
+
 def write_law(folder):
     """The two files of the page."""
     folder.mkdir(parents=True)
@@ -57,6 +66,7 @@ def library(tmp_path_factory):
     """A copy of the rheology library with the page's law; its folder."""
     base = tmp_path_factory.mktemp("law")
     source = base / "rheology"
+    (base / "input").symlink_to(ROOT / "src" / "input")
     shutil.copytree(
         ROOT / "src" / "rheology",
         source,
@@ -65,8 +75,7 @@ def library(tmp_path_factory):
     write_law(source / FOLDER)
     files = source / "Make" / "files"
     files.write_text(LINE + files.read_text())
-    built = base / "lib"
-    built.mkdir()
+    built = libraries(base / "lib")
     wmake(source, built)
     return built
 
@@ -80,11 +89,7 @@ def own_library(tmp_path_factory):
     make.mkdir()
     for name, text in zip(("files", "options"), blocks("make"), strict=True):
         (make / name).write_text(text)
-    built = base / "lib"
-    built.mkdir()
-    # Where -lbolusRheology is looked for
-    rheology_built = Path(os.environ["FOAM_USER_LIBBIN"], "libbolusRheology.so")
-    (built / rheology_built.name).symlink_to(rheology_built)
+    built = libraries(base / "lib", "Input", "Rheology")
     wmake(base / "myFlowStress", built)
     return built
 

@@ -16,7 +16,7 @@ Description
 Usage
     \b bolusFoam [-checkTangent]
 
-    constant/bolusProperties (elastoViscoPlastic, voidLaw),
+    constant/bolusProperties (elastoViscoPlastic, surroundingPhase),
     constant/dynamicMeshDict, system/fvSolution (coupledSystem,
     historyTransport), system/controlDict (stepControl), 0/alpha, 0/U
     (contactWall on walls, zeroGradient on open boundaries).

@@ -33,6 +33,22 @@ void Foam::coupledSystem::freeze()
 }
 
 
+bool Foam::coupledSystem::attempt()
+{
+    // Not from where one before it has failed, which may be anywhere
+    unknowns_.start(
+        state_.pointU.primitiveField(),
+        state_.pStart.primitiveField(),
+        solved_,
+        accuracy()
+    );
+    cells_.forgetTangent();
+    const bool converged = newton_.solve(unknowns_.x());
+    report_.iterations += newton_.iterations();
+    return converged;
+}
+
+
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
 Foam::coupledSystem::coupledSystem(
@@ -128,25 +144,15 @@ const Foam::coupledSystem::report& Foam::coupledSystem::solve(
     cells_.friction().lag(false);
     turning_.start(deltaT);
     cells_.mixture().turnLater(turning_.now());
-    unknowns_.start(
-        state_.pointU.primitiveField(),
-        state_.pStart.primitiveField(),
-        solved_,
-        accuracy()
-    );
-    cells_.forgetTangent();
-
-    const Vec x = unknowns_.x();
-    bool converged = newton_.solve(x);
-    report_.iterations = newton_.iterations();
+    report_.iterations = 0;
+    bool converged = attempt();
 
     // Turning may take more stress from what shears than strain gives it
     if (!converged && turning_.mayHelp(deltaT))
     {
         turning_.begin();
         cells_.mixture().turnLater(true);
-        converged = newton_.solve(x);
-        report_.iterations += newton_.iterations();
+        converged = attempt();
     }
 
     // Where the threshold of a face falls faster than its load as it begins to
@@ -155,8 +161,7 @@ const Foam::coupledSystem::report& Foam::coupledSystem::solve(
     if (!converged && cells_.friction().rubs() && deltaT <= lagFrictionBelow_)
     {
         cells_.friction().lag(true);
-        converged = newton_.solve(x);
-        report_.iterations += newton_.iterations();
+        converged = attempt();
     }
     report_.frictionLagged = cells_.friction().lagged();
     report_.turningLagged = turning_.now();

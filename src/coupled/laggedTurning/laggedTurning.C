@@ -34,11 +34,29 @@ Foam::laggedTurning::laggedTurning(
     )),
     row_(memory_.lookupOrDefault<label>("turnLaterRow", 0)),
     left_(memory_.lookupOrDefault<label>("turnLater", 0)),
-    now_(false)
+    now_(false),
+    time_(time),
+    step_(-1),
+    rowBefore_(row_),
+    leftBefore_(left_)
 {}
 
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
+
+void Foam::laggedTurning::start(const scalar deltaT)
+{
+    if (time_.timeIndex() == step_)
+    {
+        row_ = rowBefore_;
+        left_ = leftBefore_;
+    }
+    step_ = time_.timeIndex();
+    rowBefore_ = row_;
+    leftBefore_ = left_;
+    now_ = left_ > 0 && deltaT <= below_;
+}
+
 
 void Foam::laggedTurning::begin()
 {

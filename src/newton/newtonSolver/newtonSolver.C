@@ -180,7 +180,8 @@ void Foam::newtonSolver::create(
     PETSC_CHECK(
         SNESSetConvergenceTest(snes_, convergedFunction, this, nullptr)
     );
-    PETSC_CHECK(SNESSetTolerances(snes_, 0, 0, 1e-12, maxIterations_, 10000));
+    // A step of no length is no convergence: judge() decides alone
+    PETSC_CHECK(SNESSetTolerances(snes_, 0, 0, 0, maxIterations_, 10000));
 }
 
 
@@ -212,7 +213,15 @@ bool Foam::newtonSolver::solve(Vec x)
             // As long as it brings something
             if (mayLeap_) continue;
         }
-        if (reason_ != SNES_DIVERGED_LINE_SEARCH) break;
+        // PETSc calls a failed search a local minimum where a random vector
+        // tells it so: no reason to give up
+        if (
+            reason_ != SNES_DIVERGED_LINE_SEARCH
+            && reason_ != SNES_DIVERGED_LOCAL_MIN
+        )
+        {
+            break;
+        }
         if (problem_.mayEliminateMore())
         {
             problem_.eliminateMore();
