@@ -25,10 +25,11 @@ from pathlib import Path
 
 import gmsh
 import numpy as np
-from bolus_cases.synthetic import write_file
-from bolus_cases.tool_surface import check_surface, divide, outline
 from bolus_results.fields import Mesh, read_mesh
 from scipy.spatial import cKDTree
+
+from bolus_cases.synthetic import write_file
+from bolus_cases.tool_surface import check_surface, divide, outline
 
 
 @dataclass

@@ -19,6 +19,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+
 from bolus_results.foam_files import (
     FoamFileError,
     entries,
