@@ -110,9 +110,7 @@ def register(size: float) -> None:
         axes.legend(
             fontsize=8, ncols=7, loc="lower center", bbox_to_anchor=(0.5, 1)
         )
-        figure.savefig(folder / "phases.png", dpi=110)
-        plt.close(figure)
-        found.picture = "phases.png"
+        found.draw(figure, folder / "phases.png")
         return found
 
 
@@ -200,9 +198,7 @@ def scaling(folder: Path, quick: bool) -> Findings:
     )
     axes.set(xlabel="cells", ylabel="seconds per step")
     axes.legend(fontsize=8)
-    figure.savefig(folder / "scaling.png", dpi=110)
-    plt.close(figure)
-    found.picture = "scaling.png"
+    found.draw(figure, folder / "scaling.png")
     return found
 
 
@@ -279,9 +275,7 @@ def stock_compression(folder: Path, quick: bool) -> Findings:
         ylim=(0, 5),
     )
     axes.legend(fontsize=7)
-    figure.savefig(folder / "force.png", dpi=110)
-    plt.close(figure)
-    found.picture = "force.png"
+    found.draw(figure, folder / "force.png")
     return found
 
 
@@ -366,7 +360,5 @@ def stock_wire(folder: Path, quick: bool) -> Findings:
         ylim=(0, 20),
     )
     axes.legend(fontsize=7)
-    figure.savefig(folder / "force.png", dpi=110)
-    plt.close(figure)
-    found.picture = "force.png"
+    found.draw(figure, folder / "force.png")
     return found
