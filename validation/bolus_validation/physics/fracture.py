@@ -5,7 +5,7 @@
 from pathlib import Path
 
 import numpy as np
-from bolus_cases.mapped import draw_cells
+from bolus_cases.mapped import draw_cells, write_motion
 from bolus_cases.specimens import (
     box,
     compression,
@@ -254,13 +254,6 @@ def bar_in_tension(folder: Path, quick: bool) -> Findings:
     return found
 
 
-def write_points(path: Path, points) -> None:
-    """A plain list of vectors, (n, 3), as boundaryData has it."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    rows = "".join(f"({x:.15g} {y:.15g} {z:.15g})\n" for x, y, z in points)
-    path.write_text(f"{len(points)}\n(\n{rows})\n")
-
-
 def shear(case: Path, gamma: float, step: float = 0.05, cells: int = 6):
     """A block that is full of bolus, in homogeneous simple shear at 1/s."""
     mesh = box(
@@ -280,13 +273,14 @@ def shear(case: Path, gamma: float, step: float = 0.05, cells: int = 6):
     )
     # The sides move in proportion to y; box() has no words for that
     path = case / "0" / "pointDisplacement"
-    for side, x in (("x0", 0.0), ("x1", 0.010)):
-        points = mesh.points[np.isclose(mesh.points[:, 0], x)]
-        data = case / "constant" / "boundaryData" / side
-        write_points(data / "points", points)
-        for time in (0, gamma):
-            moved = np.outer(points[:, 1] * time, (1, 0, 0))
-            write_points(data / f"{time:g}" / "pointDisplacement", moved)
+    for side in ("x0", "x1"):
+        write_motion(
+            case,
+            mesh,
+            side,
+            lambda time, points: np.outer(points[:, 1] * time, (1, 0, 0)),
+            (0, gamma),
+        )
         replace(
             path,
             side + r" \{ type zeroGradient; \}",
