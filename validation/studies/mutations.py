@@ -25,15 +25,18 @@ ROOT = Path(__file__).parents[2]
 BASE = ROOT / "run" / "validate" / "mutations"
 TREE = BASE / "tree"
 
-CELL = "src/coupled/coupledSystem/coupledSystemCell.C"
-SYSTEM = "src/coupled/coupledSystem/coupledSystem.C"
-SOLVE = "src/coupled/coupledSystem/coupledSystemSolve.C"
+MIXTURE = "src/mixture/laminate/laminate.C"
+GAS = "src/phases/gas/gas.C"
+FRICTION = "src/contact/wallFriction/wallFriction.C"
+NEWTON = "src/newton/newtonSolver/newtonSolver.C"
+ELIMINATION = "src/mixture/pressureElimination/pressureElimination.H"
+TURNING = "src/coupled/laggedTurning/laggedTurning.C"
 TANGENT = "src/linear/condensedTangent/condensedTangent.C"
-ENERGY = "src/coupled/coupledSystem/coupledSystemEnergy.C"
 SPACE = "src/space/nodalSpace/nodalSpace.C"
-MEMORY = "src/transport/historyTransport/historyTransportMemory.C"
-FLUX = "src/transport/historyTransport/historyTransportFlux.C"
-TRANSPORT = "src/transport/historyTransport/historyTransport.C"
+HISTORY = "src/transport/historyFlux/historyFlux.C"
+FLUX = "src/transport/bolusFlux/bolusFlux.C"
+SUBSTEPS = "src/transport/subSteps/subSteps.C"
+PACKED = "src/transport/packedHistory/packedHistory.C"
 POINT = "src/rheology/elastoViscoPlastic/elastoViscoPlasticI.H"
 
 
@@ -108,9 +111,9 @@ MUTATIONS = (
     ),
     Mutation(
         "no look at what is no number",
-        "applications/solvers/bolusFoam/bolusFields.C",
-        "forState(requireNumbers());",
-        "",
+        "src/history/historyVariable/historyField.H",
+        "{\n        requireNumbers();\n    }",
+        "{}",
         "test_runs.py -k no_number",
     ),
     Mutation(
@@ -164,7 +167,7 @@ MUTATIONS = (
     ),
     Mutation(
         "bolus on the wrong side of the interface in transport",
-        "src/interface/planarInterface/planarInterface.H",
+        "src/interface/planarInterface/planarInterface.C",
         "along > 0 ? d",
         "along < 0 ? d",
         "test_physics.py -k rotation",
@@ -185,9 +188,9 @@ MUTATIONS = (
     ),
     Mutation(
         "crumbs without cohesion",
-        "src/phases/voidLaw/voidLaw.H",
-        "const scalar pt = pv + cohesion;",
-        "const scalar pt = pv;",
+        GAS,
+        "const scalar pt = p + holds_[c];",
+        "const scalar pt = p;",
         "test_void.py",
     ),
     Mutation(
@@ -227,23 +230,23 @@ MUTATIONS = (
     ),
     Mutation(
         "stress that never turns where it should turn later",
-        CELL,
+        MIXTURE,
         "return mag(r.r.s) / max(mag(whole.s), VSMALL) * whole.s;",
         "return r.r.s;",
         "test_solver.py -k stress_turns",
     ),
     Mutation(
         "rows of stress that turns later never doubled",
-        "src/coupled/coupledSystem/coupledSystemSolve.C",
-        "min(max(2 * turnLaterRow_, leastLagTurningSteps_),",
-        "min(max(turnLaterRow_, leastLagTurningSteps_),",
+        TURNING,
+        "max(2 * row_, least)",
+        "max(row_, least)",
         "test_solver_contact.py -k more_steps_turn",
     ),
     Mutation(
         "rows of stress that turns later as long as the last",
-        "src/coupled/coupledSystem/coupledSystem.C",
-        "turnLaterRow_ = 0;",
-        "turnLaterRow_ = max(turnLaterRow_, 0);",
+        TURNING,
+        "row_ = 0;",
+        "row_ = max(row_, 0);",
         "test_solver_contact.py -k more_steps_turn",
     ),
     Mutation(
@@ -255,7 +258,7 @@ MUTATIONS = (
     ),
     Mutation(
         "lagged friction with twice the pressure",
-        CELL,
+        FRICTION,
         "k.pn = lagged_ ? state_.p[c] -",
         "k.pn = lagged_ ? 2 * state_.p[c] -",
         "test_solver_contact.py -k lagged_friction",
@@ -276,7 +279,7 @@ MUTATIONS = (
     ),
     Mutation(
         "subdomains of Schwarz's method that do not overlap",
-        SOLVE,
+        "src/linear/linearOptions/linearOptions.C",
         "-bolus_velocity_pc_asm_overlap 1",
         "-bolus_velocity_pc_asm_overlap 0",
         "test_solver.py -k subdomains_overlap",
@@ -290,36 +293,36 @@ MUTATIONS = (
     ),
     Mutation(
         "closing voids extrapolated from where they are",
-        SOLVE,
-        "J->extrapolate(c, weight_[c] / rate0_ * tangent.excess);",
+        "src/coupled/coupledSystem/coupledSystemAssemble.C",
+        "J.extrapolate(c, weight_[c] / unknowns_.rate0 * t.excess);",
         "",
         "test_cutting.py -k shortcuts",
     ),
     Mutation(
         "consistent tangent where the stress has turned",
-        CELL,
+        "src/mixture/flowSecant/flowSecant.C",
         "r.r.dqdqTrial = r.r.theta;",
         "",
         "test_gastric.py -k secant",
     ),
     Mutation(
         "pressure of cells with room not eliminated",
-        SOLVE,
-        "if (!eliminate_ || eliminateRoom_ == 0) return;",
+        "src/coupled/stepUnknowns/stepUnknowns.C",
+        "if (!eliminate_ || !elimination.active()) return;",
         "return;",
         "test_cutting.py -k shortcuts",
     ),
     Mutation(
         "pressure of wisps not eliminated where Newton's method is stuck",
-        SOLVE,
-        "eliminateFrom_ *= 0.05;",
-        "eliminateFrom_ *= 0.99;",
+        ELIMINATION,
+        "from_ *= 0.05;",
+        "from_ *= 0.99;",
         "test_cutting.py -k wisps",
     ),
     Mutation(
         "Newton's method left to crawl",
-        SOLVE,
-        "system.stalled_ == 3",
+        NEWTON,
+        "stalled_ == 3",
         "false",
         "test_cutting.py -k wisps",
     ),
@@ -332,14 +335,14 @@ MUTATIONS = (
     ),
     Mutation(
         "damaged bolus keeps its tension",
-        SYSTEM,
-        "phi_[c] = damaged_[c] || atWall",
-        "phi_[c] = atWall",
+        GAS,
+        "mobility_[c] = cell.damaged || cell.atWall",
+        "mobility_[c] = cell.atWall",
         "test_solver_damage.py -k damaged_bar_carries_no_force_in_tension",
     ),
     Mutation(
         "damaged bolus loses its pressure",
-        CELL,
+        MIXTURE,
         "r.P = -(a * p + (1 - a) * r.pv);",
         "r.P = -(damaged_[c] ? 0 : 1) * (a * p + (1 - a) * r.pv);",
         "test_solver_damage.py -k damaged_bar_carries_pressure",
@@ -367,7 +370,7 @@ MUTATIONS = (
     ),
     Mutation(
         "a flow too fast is moved as far as it goes",
-        TRANSPORT,
+        "src/transport/historyTransport/historyTransport.C",
         "if (result.tooFast) return result;",
         "result.tooFast = false;",
         "test_solver_input.py -k too_fast",
@@ -381,23 +384,23 @@ MUTATIONS = (
     ),
     Mutation(
         "a wall pulls",
-        SYSTEM,
-        "phi_[c] = damaged_[c] || atWall",
-        "phi_[c] = damaged_[c]",
+        GAS,
+        "mobility_[c] = cell.damaged || cell.atWall",
+        "mobility_[c] = cell.damaged",
         "test_solver_contact.py -k pulled_away",
     ),
     Mutation(
         "no friction",
-        CELL,
+        FRICTION,
         "if (k.pn <= 0) return false;",
         "return false;",
         "test_solver_contact.py -k sliding_block",
     ),
     Mutation(
         "friction fades where the bolus ends",
-        CELL,
-        "k.grip = a_[c];",
-        "k.grip = sqr(a_[c]);",
+        FRICTION,
+        "const scalar w = b.alpha * k.weight[fp];",
+        "const scalar w = sqr(b.alpha) * k.weight[fp];",
         "test_physics_contact.py -k slidingBlock",
     ),
     Mutation(
@@ -423,51 +426,50 @@ MUTATIONS = (
     ),
     Mutation(
         "transport loses a thousandth of what leaves a cell",
-        MEMORY,
-        "cells[own[f]] -= amount[f] * dt;",
-        "cells[own[f]] -= 1.001 * amount[f] * dt;",
+        HISTORY,
+        "massNew_[own[f]] -= F[f] * dt;",
+        "massNew_[own[f]] -= 1.001 * F[f] * dt;",
         "test_solver.py -k mass_stays",
     ),
     Mutation(
         "short sub-steps forget what slow cells give the fast ones",
-        MEMORY,
-        "    for (const label f : z.given) add(f);\n}\n\n\n"
-        "void Foam::historyTransport::faceValues",
-        "}\n\n\nvoid Foam::historyTransport::faceValues",
+        HISTORY,
+        "    for (const label f : z.given) add(f);",
+        "",
         "test_transport.py -k mass_is_kept",
     ),
     Mutation(
         "fast cells leave nothing for what slow ones were to get",
         FLUX,
-        "given[D] += mag(F_[f]) * left * dt;",
-        "given[D] += 0;",
+        "given_[D] += mag(F_[f]) * left * dt;",
+        "given_[D] += 0;",
         "test_cases.py -k balanced",
     ),
     Mutation(
         "cells give more than they have",
         FLUX,
-        "    takeWhatIsThere(z, dt, left);",
+        "    takeWhatIsThere(z, alpha, dt, left);",
         "",
         "test_transport.py -k traces",
     ),
     Mutation(
         "what leads out of fast cells has the memory of the start",
-        MEMORY,
-        "            memoryF_[f * n + k] = qD[k];\n"
+        HISTORY,
+        "            faces_[f * n + k] = qD[k];\n"
         "            mean_[f * n + k] += qD[k] / fine;",
-        "            mean_[f * n + k] += memoryF_[f * n + k] / fine;",
+        "            mean_[f * n + k] += faces_[f * n + k] / fine;",
         "test_cases.py -k less_plastic",
     ),
     Mutation(
         "full steps are never tried",
-        "src/coupled/coupledSystem/coupledSystemSolve.C",
+        NEWTON,
         "mayLeap_ = fullSteps_ > 0;",
         "mayLeap_ = false;",
         "test_cases.py -k full_steps",
     ),
     Mutation(
         "all cells take the short sub-steps",
-        "src/transport/historyTransport/historyTransportZones.C",
+        SUBSTEPS,
         "if (work < least)",
         "if (work < 0 * least)",
         "test_transport.py -k fast_cells",
@@ -481,31 +483,62 @@ MUTATIONS = (
     ),
     Mutation(
         "processors never ask each other about fast cells",
-        "src/transport/historyTransport/historyTransportZones.C",
-        "fast.shared = parts_",
-        "fast.shared = false && parts_",
+        SUBSTEPS,
+        "fast.shared = exchange_.parts()",
+        "fast.shared = false && exchange_.parts()",
         "test_transport.py -k two_ranks",
     ),
     Mutation(
         "memory is carried by the receiving cell's value",
-        MEMORY,
+        HISTORY,
         "            qF[k] = qD[k];\n\n",
         "            qF[k] = forward ? qN[k] : qP[k];\n\n",
         "test_physics.py -k rotation",
     ),
     Mutation(
         "processors tell each other the memory of one cell only",
-        TRANSPORT,
-        "cells[coupledCells_[i] * width + k]",
-        "cells[coupledCells_[0] * width + k]",
+        "src/transport/cellExchange/cellExchange.C",
+        "values[cells_[i] * width + k]",
+        "values[cells_[0] * width + k]",
         "test_transport.py -k two_ranks",
     ),
     Mutation(
         "all memories of a cell are its pressure",
-        TRANSPORT,
-        "memory_[c * n_ + k] = q[c];",
-        "memory_[c * n_ + k] = all[0][c];",
+        PACKED,
+        "values_[c * n + k] = q[c];",
+        "values_[c * n + k] = all_[0][c];",
         "test_transport.py -k piston",
+    ),
+    Mutation(
+        "a step that is done again keeps the fields that it carried",
+        "src/history/historyVariables/historyVariables.C",
+        "for (historyVariable& v : variables_) v.restore();",
+        "for (historyVariable& v : variables_)\n"
+        "    {\n"
+        "        if (v.how() != historyVariable::CARRIED) v.restore();\n"
+        "    }",
+        "test_adding_a_field.py -k done_again",
+    ),
+    Mutation(
+        "fields of the case stand in the mesh",
+        "src/history/carriedField/carriedField.C",
+        "historyVariable::CARRIED",
+        "historyVariable::STANDS",
+        "test_adding_a_field.py -k as_far_as_the_piston",
+    ),
+    Mutation(
+        "fields of the case never change of themselves",
+        "src/history/carriedFields/carriedFields.C",
+        "f.evolve(deltaT);",
+        "f.evolve(0);",
+        "test_adding_a_field.py -k mean_age",
+    ),
+    Mutation(
+        "the pressure is not the first of the memories",
+        PACKED,
+        "    Swap(used_.first(), used_.last());\n",
+        "",
+        "test_transport.py -k mass_is_kept",
     ),
     Mutation(
         "waves with exponent 6 for 5",
@@ -523,14 +556,14 @@ MUTATIONS = (
     ),
     Mutation(
         "plastic dissipation 5 % too large",
-        ENERGY,
+        "src/mixture/laminate/laminateEnergy.C",
         "rate * r.r.q * r.r.dEpsP;",
         "1.05 * rate * r.r.q * r.r.dEpsP;",
         "test_energy.py -k dissipates_stress",
     ),
     Mutation(
         "friction work 5 % too large",
-        ENERGY,
+        FRICTION,
         "area * factor * (k.slip & k.step)",
         "1.05 * area * factor * (k.slip & k.step)",
         "test_energy.py -k friction_takes",

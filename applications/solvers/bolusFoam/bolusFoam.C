@@ -28,6 +28,7 @@ Usage
 #include "dynamicFvMesh.H"
 #include "profiling.H"
 #include "bolusFields.H"
+#include "carriedFields.H"
 #include "energyBooks.H"
 #include "historyTransport.H"
 #include "meshCheck.H"
@@ -35,7 +36,7 @@ Usage
 #include "runLock.H"
 #include "signalReport.H"
 #include "stepControl.H"
-#include "voidLaw.H"
+#include "surroundingPhase.H"
 #include "writtenTime.H"
 
 using namespace Foam;
@@ -139,7 +140,7 @@ int main(int argc, char* argv[])
     ));
     const elastoViscoPlastic law(properties);
     const caseScales scales(runTime.controlDict(), law);
-    const voidLaw voids(properties.subOrEmptyDict("void"), scales);
+    autoPtr<surroundingPhase> medium(surroundingPhase::New(properties, scales));
     const dictionary& solver = mesh.solutionDict().subOrEmptyDict("bolus");
 
     autoPtr<bolusFields> fieldsPtr;
@@ -149,16 +150,18 @@ int main(int argc, char* argv[])
         fieldsPtr.reset(new bolusFields(mesh, law));
     }
     bolusFields& fields = fieldsPtr();
-    coupledSystem system(law, voids, fields.state, scales, solver);
+    carriedFields carried(properties, fields);
+    coupledSystem system(law, medium.ref(), fields, scales, properties, solver);
+    // The bolus takes its momentum along
+    if (system.inertia() > 0) fields.history["U"].carry();
     historyTransport transport(
-        fields.state,
+        fields,
         law.elastic().K(),
         system.space().axes(),
-        system.inertia() > 0,
         mesh.solutionDict().subOrEmptyDict("transport")
     );
     stepControl control(runTime);
-    energyBooks energy(runTime, fields, law, system.inertia());
+    energyBooks energy(runTime, fields, law, system);
     progress report(runTime, fields, control, energy);
 
     SHA1Digest numerics;
@@ -174,7 +177,7 @@ int main(int argc, char* argv[])
         }
         if (written.complete()) signals.written(written.name());
         tellWhatCountsLater(mesh, numerics);
-        fields.store();
+        fields.history.store();
         signals.step();
         control.start();
 
@@ -214,7 +217,7 @@ int main(int argc, char* argv[])
                 // A piece that nothing holds was shot off; bolus burst
                 if (moved.tooFast || !(moved.alphaMax < transport.burst()))
                 {
-                    fields.restore();
+                    fields.history.restore();
                     solved.converged = false;
                     solved.reason = moved.tooFast
                         ? "flow too fast for maxSubSteps"
@@ -241,17 +244,23 @@ int main(int argc, char* argv[])
                 || overfull == 2 || !control.retry();
             if (!done)
             {
-                fields.restore();
+                fields.history.restore();
                 ++overfull;
             }
         }
 
+        carried.evolve(runTime.deltaTValue());
         fields.damage(system.damageAbove());
         fields.derive();
         energy.step(system, runTime.deltaTValue());
 
         control.done(solved.iterations, moved.bulkCourant);
-        report.step(solved, moved, system.bolusRate(), system.flowRate());
+        report.step(
+            solved,
+            moved,
+            system.accepted().bolusRate,
+            system.accepted().flowRate
+        );
 
         if (control.write())
         {

@@ -56,13 +56,39 @@ void Foam::energyBooks::add(const word& name, const scalar energy)
 }
 
 
+namespace Foam
+{
+
+//- The name of a power in the books: of inertia's a part is stored
+static word booked(const word& power)
+{
+    return power == "inertia" ? word("inertiaLoss") : power;
+}
+
+
+static wordList partsOf(const powerLedger& ledger)
+{
+    DynamicList<word> parts({"elastic", "slip", "kinetic"});
+    for (const word& name : ledger.names())
+    {
+        if (name == "walls" || name == "closure" || name == "elastic") continue;
+        parts.append(booked(name));
+    }
+    parts.append("transport");
+    parts.append("outflow");
+    return wordList(parts);
+}
+
+} // End namespace Foam
+
+
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
 Foam::energyBooks::energyBooks(
     const Time& time,
     const bolusFields& fields,
     const elastoViscoPlastic& law,
-    const scalar inertia
+    const coupledSystem& system
 ) :
     IOdictionary(IOobject(
         "energyBooks",
@@ -74,8 +100,11 @@ Foam::energyBooks::energyBooks(
     )),
     fields_(fields),
     law_(law),
-    inertia_(inertia)
+    inertia_(system.inertia()),
+    parts_(partsOf(system.accepted().power))
 {
+    IOdictionary::add("parts", parts_, true);
+    for (const word& part : parts_) keep(part, get(part));
     if (found("walls")) return;
 
     keep("walls", 0);
@@ -83,7 +112,6 @@ Foam::energyBooks::energyBooks(
     // Strains of some 1e-5 all over: less work than that counts as none
     keep("largestWork", 1e-9 * law.elastic().G() * fields.totalMass());
     keep("residual", 0);
-    for (const word& part : parts()) keep(part, 0);
 
     // What is there at the start is nobody's work
     keep("elasticNow", elasticEnergy());
@@ -93,31 +121,9 @@ Foam::energyBooks::energyBooks(
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
-const Foam::wordList& Foam::energyBooks::parts()
-{
-    static const wordList names(
-        {"elastic",
-            "slip",
-            "kinetic",
-            "plastic",
-            "friction",
-            "fracture",
-            "void",
-            "debris",
-            "relaxation",
-            "hourglass",
-            "overfill",
-            "transport",
-            "outflow",
-            "inertiaLoss"}
-    );
-    return names;
-}
-
-
 void Foam::energyBooks::step(const coupledSystem& system, const scalar deltaT)
 {
-    const stepPower& P = system.power();
+    const coupledSystem::solution& now = system.accepted();
 
     // What bolus that left took along, as it was before the transport
     scalar out = 0;
@@ -125,48 +131,20 @@ void Foam::energyBooks::step(const coupledSystem& system, const scalar deltaT)
     {
         if (F.coupled()) continue;
         const labelUList& cells = F.patch().faceCells();
-        forAll(F, i) out += F[i] * system.elasticEnergy()[cells[i]];
+        forAll(F, i) out += F[i] * now.elasticEnergy[cells[i]];
     }
+    const scalar outflow = returnReduce(out, sumOp<scalar>()) * deltaT;
+    const scalar slip = returnReduce(now.slipEnergy, sumOp<scalar>());
 
-    const word names[] = {
-        "walls",
-        "closure",
-        "elastic",
-        "plastic",
-        "relaxation",
-        "fracture",
-        "void",
-        "debris",
-        "hourglass",
-        "overfill",
-        "friction",
-        "inertiaLoss",
-        "outflow"
-    };
-    scalarField sums(
-        {P.walls,
-            P.closure,
-            P.elastic,
-            P.plastic,
-            P.relaxation,
-            P.fracture,
-            P.voids,
-            P.debris,
-            P.hourglass,
-            P.overfill,
-            P.friction,
-            P.inertia,
-            out,
-            P.slipEnergy / deltaT}
-    );
-    reduce(sums, sumOp<scalarField>());
-    for (scalar& sum : sums) sum *= deltaT;
-
-    label i = 0;
-    for (const word& name : names) add(name, sums[i++]);
-    const scalar solved = sums[2];
-    const scalar outflow = sums[12];
-    const scalar slip = sums[13];
+    scalar solved = 0;
+    for (const word& name : now.power.names())
+    {
+        const scalar energy =
+            returnReduce(now.power[name], sumOp<scalar>()) * deltaT;
+        add(booked(name), energy);
+        if (name == "elastic") solved = energy;
+    }
+    add("outflow", outflow);
 
     // Of the work on the slip a part is stored
     add("friction", get("slip") - slip);
@@ -185,7 +163,7 @@ void Foam::energyBooks::step(const coupledSystem& system, const scalar deltaT)
 
     const scalar work = get("walls") + get("closure");
     scalar R = work;
-    for (const word& part : parts()) R -= get(part);
+    for (const word& part : parts_) R -= get(part);
     keep("residual", R);
     keep("largestWork", max(get("largestWork"), mag(work)));
 }
@@ -201,7 +179,7 @@ void Foam::energyBooks::report() const
 {
     const scalar work = get("walls") + get("closure");
     Info << "    work             " << work << " J on the mesh; of this" << nl;
-    for (const word& part : parts())
+    for (const word& part : parts_)
     {
         if (get(part) == 0) continue;
         const std::string gap(13 - part.size(), ' ');

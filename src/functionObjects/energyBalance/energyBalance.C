@@ -13,27 +13,6 @@ namespace functionObjects
 {
 defineTypeNameAndDebug(energyBalance, 0);
 addToRunTimeSelectionTable(functionObject, energyBalance, dictionary);
-
-//- The sums that bolusFoam keeps, in the order of the columns
-static const wordList sums(
-    {"walls",
-        "closure",
-        "elastic",
-        "slip",
-        "kinetic",
-        "plastic",
-        "friction",
-        "fracture",
-        "void",
-        "debris",
-        "relaxation",
-        "hourglass",
-        "overfill",
-        "transport",
-        "outflow",
-        "inertiaLoss",
-        "residual"}
-);
 }
 }
 
@@ -46,13 +25,29 @@ Foam::string Foam::functionObjects::energyBalance::title() const
 }
 
 
+const Foam::dictionary& Foam::functionObjects::energyBalance::books() const
+{
+    const IOdictionary* found = time_.cfindObject<IOdictionary>("energyBooks");
+    if (!found)
+    {
+        // One of input: postProcess goes on after others
+        FatalIOErrorInFunction(time_.controlDict())
+            << "function object " << name() << " needs the energyBooks that"
+            << " bolusFoam keeps; no other solver has them"
+            << exit(FatalIOError);
+    }
+    return *found;
+}
+
+
 Foam::stringList Foam::functionObjects::energyBalance::heads() const
 {
-    DynamicList<string> heads;
-    for (const word& sum : sums)
+    DynamicList<string> heads({"work [J]", "closure [J]"});
+    for (const word& part : books().get<wordList>("parts"))
     {
-        heads.append((sum == "walls" ? word("work") : sum) + " [J]");
+        heads.append(part + " [J]");
     }
+    heads.append("residual [J]");
     heads.append("relative [-]");
     return stringList(heads);
 }
@@ -60,22 +55,17 @@ Foam::stringList Foam::functionObjects::energyBalance::heads() const
 
 Foam::scalarList Foam::functionObjects::energyBalance::values()
 {
-    const IOdictionary* books = time_.cfindObject<IOdictionary>("energyBooks");
-    if (!books)
-    {
-        FatalErrorInFunction << "function object " << name()
-                             << " needs the energyBooks that bolusFoam keeps;"
-                             << " no other solver has them" << exit(FatalError);
-    }
+    const dictionary& kept = books();
 
     DynamicList<scalar> row;
-    for (const word& sum : sums)
-    {
-        row.append(factor() * books->get<scalar>(sum));
-    }
-    row.append(
-        books->get<scalar>("residual") / books->get<scalar>("largestWork")
-    );
+    auto append = [&](const word& sum)
+    { row.append(factor() * kept.get<scalar>(sum)); };
+
+    append("walls");
+    append("closure");
+    for (const word& part : kept.get<wordList>("parts")) append(part);
+    append("residual");
+    row.append(kept.get<scalar>("residual") / kept.get<scalar>("largestWork"));
     return scalarList(row);
 }
 
