@@ -411,10 +411,24 @@ MUTATIONS = (
         "test_physics_contact.py -k separation",
     ),
     Mutation(
+        "radii of the wall at another time",
+        "src/motility/lumenMotionSolver/lumenMotionSolver.C",
+        "known.first() == t",
+        "known.first() < GREAT",
+        "test_motility.py -k equations_12_to_15",
+    ),
+    Mutation(
+        "quantiles of one rank",
+        "src/functionObjects/weightedSample/weightedSample.C",
+        "total_ = returnReduce(sum, sumOp<scalar>());",
+        "total_ = sum;",
+        "test_bolus_functions.py -k quantiles",
+    ),
+    Mutation(
         "the closed lumen is not sealed",
         SPACE,
-        'foundObject<labelIOList>("closedPoints")',
-        'foundObject<labelIOList>("none")',
+        "full[pointNode_[p]] = true;",
+        "full[pointNode_[p]] = false;",
         "test_gastric.py -k closed_pylorus",
     ),
     Mutation(
@@ -534,11 +548,18 @@ MUTATIONS = (
         "test_adding_a_field.py -k mean_age",
     ),
     Mutation(
+        "the gradient at the rim is that of a whole mesh",
+        HISTORY,
+        "if (some && !all) rim_.append(c);",
+        "if (some && !all && false) rim_.append(c);",
+        "test_transport.py -k stressed_disc",
+    ),
+    Mutation(
         "the pressure is not the first of the memories",
         PACKED,
         "    Swap(used_.first(), used_.last());\n",
         "",
-        "test_transport.py -k mass_is_kept",
+        "test_transport.py -k pressure_leaves",
     ),
     Mutation(
         "waves with exponent 6 for 5",

@@ -231,4 +231,4 @@ def test_what_the_own_law_leaves_out_is_not_taken_from_the_included_one(
         *("-set", "law=HerschelBulkley", "-set", "resolution=2e-3"),
         ok=False,
     )
-    assert "Missing entry sigma0" in said
+    assert "Missing entry 'sigma0'" in said

@@ -143,4 +143,4 @@ def test_an_axis_of_a_function_object_across_the_wedge_is_refused(
         "axis (0 1 0); pylorus  ",
     )
     message = " ".join(run(case, "bolusFoam", ok=False).split())
-    assert "entry axis: (0 1 0) is not along the axis of the wedge" in message
+    assert "Entry 'axis' is (0 1 0), not along the axis of the wedge" in message

@@ -120,6 +120,7 @@ def test_quantiles_weigh_by_volume(spheres, ranks):
         case,
         "bolusStatistics",
         "alpha mass D triaxiality sigmaEq epsilonPEq p",
+        "loaded 410;",
         np=ranks,
     )
     assert row["eta05"] == row["eta50"] == -0.3
@@ -201,8 +202,9 @@ def test_energy_of_a_wall_beyond_its_law_is_the_largest_of_the_law(tmp_path):
         ("fragments", "isoValue 2;", ("isoValue", "2", "< 1")),
         ("fragments", "largest 0;", ("largest", "0", "> 0")),
         ("jets", "pylorus (2 1);", ("pylorus", "2 1", "lower")),
+        ("bolusStatistics", "", ("Missing entry 'loaded'", "[Pa]")),
         ("wallEnergy", "thickness -1;", ("thickness", "-1", "> 0")),
-        ("wallEnergy", "thickness 1; K 0;", ("entry K", "0", "> 0")),
+        ("wallEnergy", "thickness 1; K 0;", ("Entry 'K'", "0", "> 0")),
     ],
 )
 def test_bad_entries_are_named(spheres, kind, entries, names):

@@ -472,7 +472,7 @@ BAD = {
         "system/controlDict",
         r"direction\s+[^;]*;",
         "",
-        ["direction", "missing", "length > 0"],
+        ["direction", "Missing", "a vector"],
     ),
 }
 

@@ -381,7 +381,7 @@ def test_two_ranks_measure_what_one_does(tmp_path):
     ("kind", "entries", "says"),
     [
         ("contactForce", "patches (gut);", ("patches", "gut", "shell wall")),
-        ("contactForce", "patch (wall);", ("patch ", "patches")),
+        ("contactForce", "patch (wall);", ("'patch'", "patches")),
         ("contactForce", "axis (0 0 0);", ("axis", "length > 0")),
         ("externalWork", "geometryFactor -1;", ("geometryFactor", "> 0")),
         (
@@ -415,4 +415,4 @@ def test_a_bolus_without_density_is_refused(tmp_path):
     laplacian_case(tmp_path, mesh, rho=-1100)
     write_control(tmp_path, functions=function("externalWork"))
     output = run(tmp_path, "laplacianFoam", ok=False)
-    assert "entry rho" in output and "-1100" in output
+    assert "Entry 'rho'" in output and "-1100" in output

@@ -511,7 +511,7 @@ BAD_MOTILITY = {
     ),
     "profile_negative": (
         ("profile.radius", "((0.2 0.02) (0.22 -0.01) (0.25 0.006))"),
-        ["radius", "-0.01", "greater than 0"],
+        ["radius", "-0.01", "> 0"],
     ),
     "interpolation_unknown": (
         ("profile.interpolation", "spline"),
@@ -519,11 +519,11 @@ BAD_MOTILITY = {
     ),
     "wave_inverts_cells": (
         ("waves.occlusion", "((0.21 0) (0.24 1))"),
-        ["occlusion", "less than 1", "0.24"],
+        ["occlusion", "< 1", "0.24"],
     ),
     "wave_pushes_out": (
         ("waves.occlusion", "((0.21 -0.1) (0.24 0.9))"),
-        ["occlusion", "-0.1", "at least 0"],
+        ["occlusion", "-0.1", ">= 0"],
     ),
     "waves_overlap": (
         ("waves.spacing", "0.015"),
@@ -531,11 +531,11 @@ BAD_MOTILITY = {
     ),
     "wave_does_not_move": (
         ("waves.speed", "0"),
-        ["speed", "greater than 0"],
+        ["speed", "is 0;", "> 0"],
     ),
     "wavelength_negative": (
         ("waves.wavelength", "((0.21 0.02) (0.25 -0.01))"),
-        ["wavelength", "-0.01", "greater than 0"],
+        ["wavelength", "-0.01", "> 0"],
     ),
     "wavelength_steep": (
         ("waves.wavelength", "((0.21 0.02) (0.211 0.01))"),
@@ -547,11 +547,11 @@ BAD_MOTILITY = {
     ),
     "fade_of_no_wave": (
         ("waves.fadeOut", "{ wave2 { from 0.24; to 0.245; } }"),
-        ["wave2", "wave0, wave1"],
+        ["wave2", "(wave0 wave1)"],
     ),
     "fade_backwards": (
         ("waves.fadeOut.wave0.to", "0.23"),
-        ["to", "0.23", "greater than 'from'"],
+        ["to", "0.23", "beyond 'from'", "> 0.24"],
     ),
     "misspelt_entry": (
         ("waves.spacng", "0.024"),
@@ -567,11 +567,11 @@ BAD_MOTILITY = {
     ),
     "sphincter_closes_at_once": (
         ("sphincter.closingRate", "-10"),
-        ["closingRate", "-10", "greater than 0"],
+        ["closingRate", "-10", "> 0"],
     ),
     "sphincter_open_is_closed": (
         ("sphincter.relativeOcclusion", "1"),
-        ["relativeOcclusion", "less than 1"],
+        ["relativeOcclusion", "< 1"],
     ),
     "trigger_unknown": (
         ("sphincter.trigger.type", "clock"),
@@ -579,7 +579,7 @@ BAD_MOTILITY = {
     ),
     "trigger_by_no_wave": (
         ("sphincter.trigger.openWave", "2"),
-        ["openWave", "2", "from 0 to 1"],
+        ["openWave", "2", ">= 0 and <= 1"],
     ),
     "schedule_out_of_order": (
         (
@@ -601,7 +601,7 @@ BAD_MOTILITY = {
     ),
     "gap_zero": (
         ("residualGap", "0"),
-        ["residualGap", "greater than 0"],
+        ["residualGap", "> 0"],
     ),
 }
 

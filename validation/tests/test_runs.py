@@ -302,7 +302,7 @@ def test_controlDict_may_change_while_a_run_goes_on(case):
     control(case, "writeInterval", 0.5)
     output, _ = running.communicate(timeout=100)
     assert running.returncode == 0, output[-1000:]
-    assert "is not taken over: entry maxDeltaT: -1; valid are" in output
+    assert "is not taken over: Entry 'maxDeltaT' is -1; largest step" in output
     assert "maxDeltaT 0.1 s" in output
     told = " ".join(output.split())
     assert "strainRate has changed. It counts from the next start on" in told

@@ -71,7 +71,7 @@ BAD = {
         "constant/bolusProperties",
         r"\n\s*E\s+\S+;",
         "",
-        ["Missing entry E", "Young's modulus"],
+        ["Missing entry 'E'", "Young's modulus"],
     ),
     "misspelt modulus": (
         "constant/bolusProperties",
@@ -83,25 +83,25 @@ BAD = {
         "system/fvSolution",
         r"bolus \{\}",
         "bolus { voidLayers 2.5; }",
-        ["Entry voidLayers", "2.5", "whole number"],
+        ["Entry 'voidLayers'", "2.5", "whole number"],
     ),
     "a linear solver that need not solve": (
         "system/fvSolution",
         r"bolus \{\}",
         "bolus { linearTolerance 1; }",
-        ["Entry linearTolerance", "1;", "> 0 and <= 0.1"],
+        ["Entry 'linearTolerance'", "1;", "> 0 and <= 0.1"],
     ),
     "negative modulus": (
         "constant/bolusProperties",
         r"\n\s*E\s+\S+;",
         "\nE -1e5;",
-        ["Entry E", "-100000", "> 0"],
+        ["Entry 'E'", "-100000", "> 0"],
     ),
     "incompressible": (
         "constant/bolusProperties",
         r"\n\s*nu\s+0.49;",
         "\nnu 0.5;",
-        ["Entry nu", "0.5", "< 0.5"],
+        ["Entry 'nu'", "0.5", "< 0.5"],
     ),
     "unknown law": (
         "constant/bolusProperties",

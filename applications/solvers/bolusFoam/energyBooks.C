@@ -103,6 +103,7 @@ Foam::energyBooks::energyBooks(
     inertia_(system.inertia()),
     parts_(partsOf(system.accepted().power))
 {
+    // For those who read these books (energyBalance)
     IOdictionary::add("parts", parts_, true);
     for (const word& part : parts_) keep(part, get(part));
     if (found("walls")) return;

@@ -12,21 +12,23 @@ addToRunTimeSelectionTable(frictionLaw, coulombFriction, dictionary);
 
 
 Foam::coulombFriction::coulombFriction(const dictionary& dict) :
-    mu_(dict.get<scalar>("mu")),
-    g0_(dict.lookupOrDefault<scalar>("elasticSlip", 1e-5))
+    coulombFriction(entryReader(dict))
+{}
+
+
+Foam::coulombFriction::coulombFriction(entryReader read) :
+    mu_(
+        read.number("mu", "friction coefficient [-]", entryReader::nonNegative)
+    ),
+    g0_(read.number(
+        "elasticSlip",
+        "slip at which sticking ends [m]",
+        entryReader::positive,
+        1e-5
+    ))
 {
-    if (mu_ < 0)
-    {
-        FatalIOErrorInFunction(dict)
-            << "entry mu: " << mu_ << " is no friction coefficient;"
-            << " valid are numbers >= 0" << exit(FatalIOError);
-    }
-    if (g0_ <= 0)
-    {
-        FatalIOErrorInFunction(dict)
-            << "entry elasticSlip: " << g0_ << " m; valid are numbers > 0"
-            << exit(FatalIOError);
-    }
+    read.require("type", "the law");
+    read.rejectOthers();
 }
 
 

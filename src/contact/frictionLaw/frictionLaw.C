@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 the bolusFoam developers
 
+#include "entryReader.H"
 #include "frictionLaw.H"
 
 namespace Foam
@@ -12,18 +13,13 @@ defineRunTimeSelectionTable(frictionLaw, dictionary);
 
 Foam::autoPtr<Foam::frictionLaw> Foam::frictionLaw::New(const dictionary& dict)
 {
-    const dictionary& friction = dict.subDict("friction");
-    const word type(friction.get<word>("type"));
+    const dictionary& friction =
+        entryReader::subDictionary(dict, "friction", "law of the wall");
+    const word type(entryReader(friction).choice(
+        "type", "friction law", dictionaryConstructorTablePtr_->sortedToc()
+    ));
 
-    auto cstrIter = dictionaryConstructorTablePtr_->cfind(type);
-    if (!cstrIter.found())
-    {
-        FatalIOErrorInFunction(friction)
-            << "entry type: unknown friction law " << type << "; valid are "
-            << dictionaryConstructorTablePtr_->sortedToc()
-            << exit(FatalIOError);
-    }
-    return cstrIter()(friction);
+    return dictionaryConstructorTablePtr_->cfind(type)()(friction);
 }
 
 

@@ -9,7 +9,7 @@
 
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
-Foam::axialFrame::axialFrame(const polyMesh& mesh, const dictionary& dict) :
+Foam::axialFrame::axialFrame(const polyMesh& mesh, entryReader& read) :
     axis_(1, 0, 0),
     origin_(Zero)
 {
@@ -35,35 +35,19 @@ Foam::axialFrame::axialFrame(const polyMesh& mesh, const dictionary& dict) :
         origin_ = motility.lookupOrDefault<point>("origin", point(Zero));
     }
 
-    dict.readIfPresent("axis", axis_);
-    dict.readIfPresent("origin", origin_);
-
-    if (mag(axis_) < VSMALL)
-    {
-        FatalIOErrorInFunction(dict)
-            << "entry axis: " << axis_ << " has no direction; valid is any"
-            << " vector of length > 0" << exit(FatalIOError);
-    }
-    axis_ /= mag(axis_);
+    axis_ = read.direction("axis", "of increasing x", axis_);
+    origin_ = read.value("origin", origin_);
 
     // Meshes are written with some ten digits, people write fewer
     if (wedge.valid() && mag(axis_ ^ wedge.axis()) > 1e-4)
     {
-        FatalIOErrorInFunction(dict)
-            << "entry axis: " << axis_ << " is not along the axis of the wedge"
+        FatalIOErrorInFunction(read.dict())
+            << "Entry 'axis' is " << axis_
+            << ", not along the axis of the wedge"
             << " mesh; valid is " << wedge.axis() << ", or the opposite, or no"
             << " entry" << exit(FatalIOError);
     }
 }
 
-
-// * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
-
-Foam::wordList Foam::axialFrame::entries(const wordList& own)
-{
-    wordList known(own);
-    known.append(wordList({"axis", "origin"}));
-    return known;
-}
 
 // ************************************************************************* //

@@ -22,10 +22,7 @@ defineTypeNameAndDebug(bolusMonitor, 0);
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-void Foam::functionObjects::bolusMonitor::rejectUnknown(
-    const dictionary& dict,
-    const wordList& entries
-) const
+void Foam::functionObjects::bolusMonitor::rejectUnknown() const
 {
     // What OpenFOAM itself reads, of all versions since v1912
     static const wordHashSet stock(
@@ -63,19 +60,7 @@ void Foam::functionObjects::bolusMonitor::rejectUnknown(
             "result"}
     );
 
-    wordList own({"geometryFactor", "writePrecision"});
-    own.append(entries);
-
-    for (const word& key : dict.toc())
-    {
-        if (!stock.found(key) && !own.found(key))
-        {
-            FatalIOErrorInFunction(dict)
-                << "entry " << key << " is not known to " << fileName_
-                << "; valid are " << own << " and those that every function"
-                << " object has" << exit(FatalIOError);
-        }
-    }
+    entries_->rejectOthers(stock, " and those that every function object has");
 }
 
 
@@ -103,17 +88,8 @@ Foam::scalar Foam::functionObjects::bolusMonitor::readDensity() const
         registered = own.get();
     }
 
-    const scalar rho =
-        dimensionedScalar("rho", dimDensity, *registered).value();
-
-    if (rho <= 0)
-    {
-        FatalIOErrorInFunction(*registered)
-            << "entry rho: " << rho << " kg/m3 is no density of a bolus;"
-            << " valid are numbers > 0" << exit(FatalIOError);
-    }
-
-    return rho;
+    return entryReader(*registered)
+        .number("rho", "density of the bolus [kg/m3]", entryReader::positive);
 }
 
 
@@ -200,7 +176,7 @@ void Foam::functionObjects::bolusMonitor::requireEveryStep(
     if (control != "timeStep" || interval != 1)
     {
         FatalIOErrorInFunction(dict)
-            << "entries executeControl " << control << ", executeInterval "
+            << "Entries 'executeControl' " << control << ", executeInterval "
             << interval << ": " << name() << " sums over time and must see"
             << " every time step; valid is executeControl timeStep,"
             << " executeInterval 1, or neither entry. To write fewer rows use"
@@ -210,15 +186,14 @@ void Foam::functionObjects::bolusMonitor::requireEveryStep(
 
 
 Foam::labelHashSet Foam::functionObjects::bolusMonitor::readPatches(
-    const dictionary& dict,
     const word& entry,
     const bool walls
-) const
+)
 {
     const polyBoundaryMesh& patches = mesh_.boundaryMesh();
     labelHashSet chosen;
 
-    if (!dict.found(entry))
+    if (!entries().has(entry))
     {
         for (const polyPatch& pp : patches)
         {
@@ -232,7 +207,7 @@ Foam::labelHashSet Foam::functionObjects::bolusMonitor::readPatches(
         return chosen;
     }
 
-    for (const wordRe& pattern : dict.get<wordRes>(entry))
+    for (const wordRe& pattern : entries().dict().get<wordRes>(entry))
     {
         bool matched = false;
         for (const polyPatch& pp : patches)
@@ -246,9 +221,11 @@ Foam::labelHashSet Foam::functionObjects::bolusMonitor::readPatches(
 
         if (!matched)
         {
-            FatalIOErrorInFunction(dict)
-                << "entry " << entry << ": no patch is called " << pattern
-                << "; valid are " << patches.names() << exit(FatalIOError);
+            entries().refuse(
+                entry,
+                "no patch is called " + pattern + "; valid are "
+                    + entryReader::list(patches.names())
+            );
         }
     }
 
@@ -256,8 +233,18 @@ Foam::labelHashSet Foam::functionObjects::bolusMonitor::readPatches(
 }
 
 
+Foam::entryReader& Foam::functionObjects::bolusMonitor::entries()
+{
+    return *entries_;
+}
+
+
 void Foam::functionObjects::bolusMonitor::begin()
 {
+    rejectUnknown();
+    // The dictionary need not outlive the construction
+    entries_.clear();
+
     openTable();
 
     if (writeToFile())
@@ -315,36 +302,33 @@ Foam::functionObjects::bolusMonitor::bolusMonitor(
     const Time& runTime,
     const dictionary& dict,
     const word& type,
-    const wordList& fields,
-    const wordList& entries
+    const wordList& fields
 ) :
     fvMeshFunctionObject(name, runTime, dict),
     writeFile(mesh_, name, type),
     fields_(fields),
-    factor_(dict.lookupOrDefault<scalar>(
-        "geometryFactor",
-        constant::mathematical::twoPi / wedgeFrame(mesh_).angle()
-    )),
+    entries_(new entryReader(dict)),
+    factor_(
+        entries().number(
+            "geometryFactor",
+            "full geometry over the mesh [-]",
+            entryReader::positive,
+            constant::mathematical::twoPi / wedgeFrame(mesh_).angle()
+        )
+    ),
     rho_(readDensity()),
     initialMass_(getProperty<scalar>("initialMass", -1)),
     summedUpTo_(getProperty<scalar>("summedUpTo", runTime.value())),
     lastRow_(-GREAT)
 {
-    rejectUnknown(dict, entries);
-
     fvMeshFunctionObject::read(dict);
     writeFile::read(dict);
 
     // More than OpenFOAM's 6 digits: the books are balanced to parts in a
     // million, and the differences of rows must carry them
-    writePrecision_ = dict.lookupOrDefault<label>("writePrecision", 9);
-
-    if (factor_ <= 0)
-    {
-        FatalIOErrorInFunction(dict)
-            << "entry geometryFactor: " << factor_ << "; valid are numbers > 0"
-            << " (the full geometry over the mesh)" << exit(FatalIOError);
-    }
+    writePrecision_ = entries().wholeNumber(
+        "writePrecision", "digits of the table", entryReader::positive, 9
+    );
 }
 
 

@@ -107,11 +107,16 @@ Foam::functionObjects::bolusStatistics::bolusStatistics(
         runTime,
         dict,
         typeName,
-        {"alpha", "mass", "D", "triaxiality", "sigmaEq", "epsilonPEq", "p"},
-        axialFrame::entries({"loaded"})
+        {"alpha", "mass", "D", "triaxiality", "sigmaEq", "epsilonPEq", "p"}
     ),
-    frame_(mesh_, dict),
-    loaded_(dict.lookupOrDefault<scalar>("loaded", 410))
+    frame_(mesh_, entries()),
+    loaded_(
+        entries().number(
+            "loaded",
+            "von Mises stress above which the triaxiality counts [Pa]",
+            entryReader::nonNegative
+        )
+    )
 {
     begin();
 }

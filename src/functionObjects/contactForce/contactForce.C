@@ -110,16 +110,9 @@ Foam::functionObjects::contactForce::contactForce(
     const Time& runTime,
     const dictionary& dict
 ) :
-    bolusMonitor(
-        name,
-        runTime,
-        dict,
-        typeName,
-        {"mass", "wallForce"},
-        axialFrame::entries({"patches"})
-    ),
-    patches_(readPatches(dict, "patches", true)),
-    frame_(mesh_, dict)
+    bolusMonitor(name, runTime, dict, typeName, {"mass", "wallForce"}),
+    patches_(readPatches("patches", true)),
+    frame_(mesh_, entries())
 {
     begin();
 }

@@ -52,14 +52,7 @@ Foam::functionObjects::damagedVolume::damagedVolume(
     const Time& runTime,
     const dictionary& dict
 ) :
-    bolusMonitor(
-        name,
-        runTime,
-        dict,
-        typeName,
-        {"alpha", "mass", "D"},
-        wordList()
-    )
+    bolusMonitor(name, runTime, dict, typeName, {"alpha", "mass", "D"})
 {
     begin();
 }

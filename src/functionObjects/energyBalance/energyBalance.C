@@ -77,7 +77,7 @@ Foam::functionObjects::energyBalance::energyBalance(
     const Time& runTime,
     const dictionary& dict
 ) :
-    bolusMonitor(name, runTime, dict, typeName, {"mass"}, {})
+    bolusMonitor(name, runTime, dict, typeName, {"mass"})
 {
     begin();
 }

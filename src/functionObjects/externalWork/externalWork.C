@@ -85,15 +85,8 @@ Foam::functionObjects::externalWork::externalWork(
     const Time& runTime,
     const dictionary& dict
 ) :
-    bolusMonitor(
-        name,
-        runTime,
-        dict,
-        typeName,
-        {"mass", "wallPower"},
-        {"patches"}
-    ),
-    patches_(readPatches(dict, "patches", true)),
+    bolusMonitor(name, runTime, dict, typeName, {"mass", "wallPower"}),
+    patches_(readPatches("patches", true)),
     work_(restored("work"))
 {
     requireEveryStep(dict);

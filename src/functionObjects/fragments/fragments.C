@@ -161,31 +161,30 @@ Foam::functionObjects::fragments::fragments(
         dict,
         typeName,
         dict.lookupOrDefault("intact", false) ? wordList({"alpha", "mass", "D"})
-                                              : wordList({"alpha", "mass"}),
-        {"patches", "intact", "isoValue", "crumb", "largest"}
+                                              : wordList({"alpha", "mass"})
     ),
-    patches_(readPatches(dict, "patches", true)),
-    intact_(dict.lookupOrDefault("intact", false)),
-    isoValue_(dict.lookupOrDefault<scalar>("isoValue", 0.5)),
-    crumb_(dict.lookupOrDefault<scalar>("crumb", 0.01)),
-    largest_(dict.lookupOrDefault<label>("largest", 4))
+    patches_(readPatches("patches", true)),
+    intact_(
+        entries().flag("intact", "only what is not damaged connects", false)
+    ),
+    isoValue_(
+        entries().number(
+            "isoValue",
+            "volume fraction [-]",
+            {0, false, 1, false},
+            0.5
+        )
+    ),
+    crumb_(entries().number("crumb", "part [-]", {0, true, 1, false}, 0.01)),
+    largest_(
+        entries().wholeNumber(
+            "largest",
+            "pieces that have columns",
+            entryReader::positive,
+            4
+        )
+    )
 {
-    auto within = [&](const char* entry, scalar x, bool valid, const char* what)
-    {
-        if (valid) return;
-        FatalIOErrorInFunction(dict)
-            << "entry " << entry << ": " << x << "; valid are " << what
-            << exit(FatalIOError);
-    };
-    within(
-        "isoValue",
-        isoValue_,
-        isoValue_ > 0 && isoValue_ < 1,
-        "volume fractions > 0 and < 1"
-    );
-    within("crumb", crumb_, crumb_ >= 0 && crumb_ < 1, "parts >= 0 and < 1");
-    within("largest", largest_, largest_ > 0, "numbers > 0");
-
     begin();
 }
 

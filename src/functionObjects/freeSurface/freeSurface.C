@@ -65,24 +65,17 @@ Foam::functionObjects::freeSurface::freeSurface(
     const Time& runTime,
     const dictionary& dict
 ) :
-    bolusMonitor(
-        name,
-        runTime,
-        dict,
-        typeName,
-        {"alpha", "mass"},
-        {"patches", "isoValue"}
-    ),
-    patches_(readPatches(dict, "patches", true)),
-    isoValue_(dict.lookupOrDefault<scalar>("isoValue", 0.5))
+    bolusMonitor(name, runTime, dict, typeName, {"alpha", "mass"}),
+    patches_(readPatches("patches", true)),
+    isoValue_(
+        entries().number(
+            "isoValue",
+            "volume fraction [-]",
+            {0, false, 1, false},
+            0.5
+        )
+    )
 {
-    if (isoValue_ <= 0 || isoValue_ >= 1)
-    {
-        FatalIOErrorInFunction(dict)
-            << "entry isoValue: " << isoValue_ << "; valid are volume"
-            << " fractions > 0 and < 1" << exit(FatalIOError);
-    }
-
     begin();
 }
 

@@ -77,23 +77,15 @@ Foam::functionObjects::jets::jets(
     const Time& runTime,
     const dictionary& dict
 ) :
-    bolusMonitor(
-        name,
-        runTime,
-        dict,
-        typeName,
-        {"alpha", "mass", "U"},
-        axialFrame::entries({"pylorus"})
-    ),
-    frame_(mesh_, dict),
-    pylorus_(dict.get<Tuple2<scalar, scalar>>("pylorus"))
+    bolusMonitor(name, runTime, dict, typeName, {"alpha", "mass", "U"}),
+    frame_(mesh_, entries()),
+    pylorus_(entries().pair("pylorus", "(from to) along the axis [m]"))
 {
     if (pylorus_.first() >= pylorus_.second())
     {
-        FatalIOErrorInFunction(dict)
-            << "entry pylorus: " << pylorus_.first() << " " << pylorus_.second()
-            << "; valid are two coordinates, the first one lower"
-            << exit(FatalIOError);
+        entries().refuse(
+            "pylorus", "valid are two coordinates [m], the first one lower"
+        );
     }
 
     begin();

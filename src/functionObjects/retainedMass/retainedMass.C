@@ -127,17 +127,17 @@ Foam::functionObjects::retainedMass::retainedMass(
     const Time& runTime,
     const dictionary& dict
 ) :
-    bolusMonitor(
-        name,
-        runTime,
-        dict,
-        typeName,
-        {"alpha", "mass", "massFlux"},
-        axialFrame::entries({"outlets", "throat", "closedBetween"})
+    bolusMonitor(name, runTime, dict, typeName, {"alpha", "mass", "massFlux"}),
+    outlets_(readPatches("outlets", false)),
+    frame_(mesh_, entries()),
+    throat_(
+        entries().number(
+            "throat",
+            "along the axis [m]",
+            entryReader::anything,
+            GREAT
+        )
     ),
-    outlets_(readPatches(dict, "outlets", false)),
-    frame_(mesh_, dict),
-    throat_(dict.lookupOrDefault<scalar>("throat", GREAT)),
     closed_(GREAT, GREAT),
     emptied_(restored("emptied")),
     passed_(restored("passed")),
@@ -165,16 +165,16 @@ Foam::functionObjects::retainedMass::retainedMass(
         }
     }
 
-    if (dict.found("closedBetween"))
+    if (entries().has("closedBetween"))
     {
-        const scalarList times(dict.get<scalarList>("closedBetween"));
-        if (times.size() != 2 || times[0] >= times[1])
+        closed_ = entries().pair("closedBetween", "(from to) [s]");
+        if (!(closed_.first() < closed_.second()))
         {
-            FatalIOErrorInFunction(dict)
-                << "entry closedBetween: " << times << "; valid are two times"
-                << " [s], the first before the second" << exit(FatalIOError);
+            entries().refuse(
+                "closedBetween",
+                "valid are two times [s], the first before the second"
+            );
         }
-        closed_ = Tuple2<scalar, scalar>(times[0], times[1]);
     }
 
     begin();

@@ -3,38 +3,34 @@
 
 #include "vanDerWaals.H"
 
-Foam::vanDerWaals::vanDerWaals(const dictionary& dict) :
-    psi_(dict.lookupOrDefault<scalar>("psi", 1e5)),
-    lambdaM_(dict.lookupOrDefault<scalar>("lambdaM", 100)),
-    a_(dict.lookupOrDefault<scalar>("a", 0.5)),
-    beta_(dict.lookupOrDefault<scalar>("beta", 0)),
-    K_(dict.lookupOrDefault<scalar>("K", 2e6))
+Foam::vanDerWaals::vanDerWaals(entryReader& read) :
+    psi_(read.number("psi", "modulus [Pa]", entryReader::positive, 1e5)),
+    lambdaM_(read.number(
+        "lambdaM",
+        "locking stretch [-]",
+        {2, false, VGREAT, true},
+        100
+    )),
+    a_(read.number(
+        "a",
+        "interaction of chains [-]",
+        entryReader::nonNegative,
+        0.5
+    )),
+    beta_(read.number(
+        "beta",
+        "part of the second invariant [-]",
+        {0, true, 1, true},
+        0
+    )),
+    K_(read.number("K", "bulk modulus [Pa]", entryReader::positive, 2e6))
 {
-    auto within = [&](const char* entry, scalar x, bool valid, const char* what)
-    {
-        if (valid) return;
-        FatalIOErrorInFunction(dict)
-            << "entry " << entry << ": " << x << "; valid are " << what
-            << exit(FatalIOError);
-    };
-    within("psi", psi_, psi_ > 0, "moduli > 0 Pa");
-    within("lambdaM", lambdaM_, lambdaM_ > 2, "stretches > 2");
-    within("a", a_, a_ >= 0, "numbers >= 0");
-    within("beta", beta_, beta_ >= 0 && beta_ <= 1, "numbers >= 0 and <= 1");
-    within("K", K_, K_ > 0, "moduli > 0 Pa");
-
     // With x = sqrt((I - 3)/2) and zeta = c x: 1 = a x (1 - c x)
     const scalar locked = sqr(lambdaM_) - 3;
     const scalar c = std::sqrt(2 / locked);
     const scalar x = a_ > 4 * c ? (1 - std::sqrt(1 - 4 * c / a_)) / (2 * c)
                                 : scalar(0.99) / c;
     largest_ = 3 + 2 * sqr(x);
-}
-
-
-Foam::wordList Foam::vanDerWaals::entries()
-{
-    return wordList({"psi", "lambdaM", "a", "beta", "K"});
 }
 
 

@@ -6,6 +6,7 @@
 #include "Pstream.H"
 #include "PstreamReduceOps.H"
 #include "fvMesh.H"
+#include "pointIOField.H"
 
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
 
@@ -42,14 +43,15 @@ Foam::scalarList Foam::functionObjects::wallEnergy::values()
     scalar beyond = 0;
     scalar most = 0;
     scalar least = GREAT;
+    label facei = 0;
     for (const label patchi : patches_)
     {
         const polyPatch& patch = mesh_.boundaryMesh()[patchi];
         for (const face& f : static_cast<const faceList&>(patch))
         {
-            const scalar A0 = f.mag(relaxed_);
+            const scalar A0 = relaxedArea_[facei];
             const scalar hoop = frame_.radius(f.centre(mesh_.points()))
-                / frame_.radius(f.centre(relaxed_));
+                / relaxedRadius_[facei++];
             const scalar axial = f.mag(mesh_.points()) / (A0 * hoop);
             const scalar thick = law_.thickness(hoop, axial);
             energy += law_.energy(hoop, axial, thick) * thickness_ * A0;
@@ -88,27 +90,20 @@ Foam::functionObjects::wallEnergy::wallEnergy(
     const Time& runTime,
     const dictionary& dict
 ) :
-    bolusMonitor(
-        name,
-        runTime,
-        dict,
-        typeName,
-        {"alpha", "mass"},
-        axialFrame::entries(
-            []()
-            {
-                wordList known({"patches", "thickness"});
-                known.append(vanDerWaals::entries());
-                return known;
-            }()
+    bolusMonitor(name, runTime, dict, typeName, {"alpha", "mass"}),
+    patches_(readPatches("patches", true)),
+    frame_(mesh_, entries()),
+    thickness_(
+        entries().number(
+            "thickness",
+            "of the relaxed wall [m]",
+            entryReader::positive
         )
     ),
-    patches_(readPatches(dict, "patches", true)),
-    frame_(mesh_, dict),
-    thickness_(dict.get<scalar>("thickness")),
-    law_(dict),
-    told_(false),
-    relaxed_(IOobject(
+    law_(entries()),
+    told_(false)
+{
+    const pointIOField relaxed(IOobject(
         "points",
         runTime.constant(),
         polyMesh::meshSubDir,
@@ -116,13 +111,15 @@ Foam::functionObjects::wallEnergy::wallEnergy(
         IOobject::MUST_READ,
         IOobject::NO_WRITE,
         false
-    ))
-{
-    if (!(thickness_ > 0))
+    ));
+    for (const label patchi : patches_)
     {
-        FatalIOErrorInFunction(dict)
-            << "entry thickness: " << thickness_ << "; valid are lengths > 0 m"
-            << exit(FatalIOError);
+        const polyPatch& patch = mesh_.boundaryMesh()[patchi];
+        for (const face& f : static_cast<const faceList&>(patch))
+        {
+            relaxedArea_.append(f.mag(relaxed));
+            relaxedRadius_.append(frame_.radius(f.centre(relaxed)));
+        }
     }
 
     begin();

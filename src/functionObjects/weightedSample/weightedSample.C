@@ -7,6 +7,35 @@
 #include "PstreamReduceOps.H"
 #include "Tuple2.H"
 
+#include <algorithm>
+#include <cstdint>
+#include <cstring>
+
+namespace
+{
+
+// Numbers in the order of the values that they stand for
+std::uint64_t rank(const double value)
+{
+    std::uint64_t bits;
+    std::memcpy(&bits, &value, sizeof(bits));
+    const std::uint64_t sign = std::uint64_t(1) << 63;
+    return bits & sign ? ~bits : bits | sign;
+}
+
+
+double ranked(std::uint64_t bits)
+{
+    const std::uint64_t sign = std::uint64_t(1) << 63;
+    bits = bits & sign ? bits & ~sign : ~bits;
+    double value;
+    std::memcpy(&value, &bits, sizeof(value));
+    return value;
+}
+
+} // End anonymous namespace
+
+
 Foam::weightedSample::weightedSample(
     const scalarUList& values,
     const scalarUList& weights
@@ -15,15 +44,6 @@ Foam::weightedSample::weightedSample(
     using sample = Tuple2<scalar, scalar>;
     List<sample> all(values.size());
     forAll(all, i) all[i] = sample(values[i], weights[i]);
-    reduce(
-        all,
-        [](const List<sample>& a, const List<sample>& b)
-        {
-            List<sample> both(a);
-            both.append(b);
-            return both;
-        }
-    );
     sort(all);
 
     values_.setSize(all.size());
@@ -34,16 +54,44 @@ Foam::weightedSample::weightedSample(
         values_[i] = all[i].first();
         sums_[i] = (sum += all[i].second());
     }
+
+    total_ = returnReduce(sum, sumOp<scalar>());
+    least_ = values_.empty() ? GREAT : values_.first();
+    most_ = values_.empty() ? -GREAT : values_.last();
+    reduce(least_, minOp<scalar>());
+    reduce(most_, maxOp<scalar>());
+}
+
+
+Foam::scalar Foam::weightedSample::weightTo(const scalar value) const
+{
+    const label n = std::upper_bound(values_.begin(), values_.end(), value)
+        - values_.begin();
+    return returnReduce(n > 0 ? sums_[n - 1] : 0, sumOp<scalar>());
 }
 
 
 Foam::scalar Foam::weightedSample::quantile(const scalar part) const
 {
-    if (values_.empty()) return 0;
+    if (least_ > most_) return 0;
 
-    label i = 0;
-    while (i < sums_.size() - 1 && sums_[i] < part * sums_.last()) ++i;
-    return values_[i];
+    // The least value that has the weight: found by halves of the range of
+    // numbers, in 64 sums at most, and exactly
+    std::uint64_t low = rank(least_);
+    std::uint64_t high = rank(most_);
+    while (low < high)
+    {
+        const std::uint64_t middle = low + (high - low) / 2;
+        if (weightTo(ranked(middle)) < part * total_)
+        {
+            low = middle + 1;
+        }
+        else
+        {
+            high = middle;
+        }
+    }
+    return ranked(high);
 }
 
 // ************************************************************************* //

@@ -154,11 +154,12 @@ void Foam::laminate::evaluate(
     r.gradU = gradU;
     r.p = p;
     r.growth = dilation - a * expansion - overfill_[c];
+    r.apart = dilation - expansion - overfill_[c];
 
     if (a > SMALL)
     {
         law_.update(
-            seen(ofBolus(c, gradU, r.growth)),
+            seen(ofBolus(c, gradU, r.apart)),
             deltaT_,
             state_.deviator[c],
             state_.epsilonPEq[c],
@@ -226,7 +227,8 @@ void Foam::laminate::deriveToPressure(
     d.s = Zero;
     if (a > SMALL)
     {
-        d.s = law_.tangent(seen(ofBolus(c, Zero, d.growth)), r.r);
+        const scalar apart = 1 / (K() * deltaT_);
+        d.s = law_.tangent(seen(ofBolus(c, Zero, apart)), r.r);
     }
     d.pv = 1 - (interface_.N()[c] && d.s);
     d.P = -(a + (1 - a) * d.pv);
@@ -238,7 +240,7 @@ Foam::symmTensor Foam::laminate::turned(const label c, const result& r) const
 {
     elastoViscoPlastic::response whole;
     law_.update(
-        ofBolus(c, r.gradU, r.growth),
+        ofBolus(c, r.gradU, r.apart),
         deltaT_,
         state_.deviator[c],
         state_.epsilonPEq[c],

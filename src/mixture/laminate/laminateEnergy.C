@@ -6,11 +6,10 @@
 
 // Where the power of a cell goes.
 //
-// With D_b = symm(grad U) - g N, g the growth of the surrounding phase, the
-// power of a cell is
+// With D_b = symm(grad U) - (v - e - o) N and N:s = p - p_v, the power of a cell
+// is
 //
-//     V Sigma : grad U = V [a s : D_b - a p e + a (1 - a) e N:s - p_v g + P o
-//                        + 2 eta dev D : D]
+//     V Sigma : grad U = V [a s : D_b - a p e - p_v w + P o + 2 eta dev D : D]
 //
 // and of backward Euler, with Q the rotation of the step, H that of the
 // objective rate (elastoViscoPlastic) and D_p the plastic part of D_b,
@@ -34,8 +33,7 @@ void Foam::laminate::declare(powerLedger& ledger)
             "relaxation",
             // The same of damaged bolus: elastic energy it could not hold
             "fracture",
-            // Surrounding phase: p_v times its shrinking, its viscosity, and
-            // the cross term of bolus that is compressed beside it
+            // Surrounding phase: p_v times its shrinking, and its viscosity
             "void",
             // Viscosity of damaged bolus
             "debris",
@@ -59,7 +57,6 @@ Foam::scalar Foam::laminate::book(
     const scalar a = alphaEff_[c];
     const scalar p = r.p;
     const scalar G = law_.elastic().G();
-    const symmTensor& N = interface_.N()[c];
 
     // Bolus
     scalar energy = 0;
@@ -74,7 +71,7 @@ Foam::scalar Foam::laminate::book(
         if (law_.elastic().logarithmic())
         {
             const symmTensor strain =
-                deltaT_ * dev(symm(ofBolus(c, r.gradU, r.growth)));
+                deltaT_ * dev(symm(ofBolus(c, r.gradU, r.apart)));
             lost -= s && ((r.r.sTrial - r.r.sRot) / (2 * G) - strain);
         }
         const scalar rate = a * V / deltaT_;
@@ -86,14 +83,12 @@ Foam::scalar Foam::laminate::book(
     }
 
     // Surrounding phase
-    const scalar expansion = -(p - pOld_[c]) / (K() * deltaT_);
     const scalar rate = r.residual - r.growth;
     const scalar shear = 2 * V * magSqr(dev(symm(r.gradU)));
     const scalar eta = viscosity(c, r.gradU);
     const scalar etaMedium =
         damaged_[c] ? eta - a * medium_.damagedViscosity() : eta;
-    ledger["void"] += V * (r.pv * rate + a * (1 - a) * expansion * (N && r.r.s))
-        + etaMedium * shear;
+    ledger["void"] += V * r.pv * rate + etaMedium * shear;
     ledger["debris"] += (eta - etaMedium) * shear;
 
     ledger["overfill"] += V * r.P * overfill_[c];

@@ -3,7 +3,6 @@
 
 #include "antralWaves.H"
 #include "DynamicList.H"
-#include "dictionaryCheck.H"
 
 #include <algorithm>
 
@@ -21,33 +20,6 @@ const Foam::Enum<Foam::antralWaves::placeType>
         {placeType::byPosition, "position"},
         {placeType::byTravel, "travel"},
     });
-
-
-// * * * * * * * * * * * * * Local Helper Functions  * * * * * * * * * * * * //
-
-namespace
-{
-
-// The dictionary, once its entries are known to be complete and known, so
-// that the first member that is read can rely on it
-const Foam::dictionary& checked(const Foam::dictionary& dict)
-{
-    Foam::dictionaryCheck::entries(
-        dict,
-        {"number",
-            "start",
-            "spacing",
-            "speed",
-            "wavelength",
-            "occlusion",
-            "exponent"},
-        {"reading", "occlusionBy", "fadeOut"}
-    );
-
-    return dict;
-}
-
-} // End anonymous namespace
 
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
@@ -68,19 +40,18 @@ void Foam::antralWaves::check(const dictionary& dict) const
         if (!(lambda[k] > 0))
         {
             FatalIOErrorInFunction(dict)
-                << "Table 'wavelength' has " << lambda[k]
-                << " m at x = " << x[k]
-                << " m; a wavelength must be greater than 0"
+                << "Entry 'wavelength' has " << lambda[k]
+                << " m at x = " << x[k] << " m; valid are wavelengths > 0"
                 << exit(FatalIOError);
         }
 
         if (k > 0 && mag(lambda[k] - lambda[k - 1]) >= x[k] - x[k - 1])
         {
             FatalIOErrorInFunction(dict)
-                << "Table 'wavelength' changes from " << lambda[k - 1]
+                << "Entry 'wavelength' changes from " << lambda[k - 1]
                 << " m at x = " << x[k - 1] << " m to " << lambda[k]
                 << " m at x = " << x[k]
-                << " m; its slope must be between -1 and 1"
+                << " m; valid are slopes between -1 and 1"
                 << exit(FatalIOError);
         }
 
@@ -88,7 +59,7 @@ void Foam::antralWaves::check(const dictionary& dict) const
         {
             FatalIOErrorInFunction(dict)
                 << "Entry 'spacing' is " << spacing_
-                << " m; it must be at least the largest wavelength, here "
+                << " m; valid are at least the largest wavelength, here "
                 << *std::max_element(lambda.begin(), lambda.end())
                 << " m, or waves overlap" << exit(FatalIOError);
         }
@@ -101,9 +72,9 @@ void Foam::antralWaves::check(const dictionary& dict) const
         if (!(C[k] >= 0 && C[k] < 1))
         {
             FatalIOErrorInFunction(dict)
-                << "Table 'occlusion' has " << C[k]
+                << "Entry 'occlusion' has " << C[k]
                 << " at x = " << occlusion_.x()[k]
-                << " m; an occlusion must be at least 0 and less than 1:"
+                << " m; valid are occlusions >= 0 and < 1:"
                 << " 1 closes the lumen, more inverts the cells"
                 << exit(FatalIOError);
         }
@@ -111,62 +82,46 @@ void Foam::antralWaves::check(const dictionary& dict) const
 }
 
 
-void Foam::antralWaves::readFades(const dictionary& dict)
+void Foam::antralWaves::readFades(entryReader& read)
 {
     fades_.resize(number_, fade{false, 0, 0, byTravel});
 
-    if (!dict.found("fadeOut"))
+    if (!read.has("fadeOut"))
     {
         return;
     }
 
-    const dictionary& fadeDict = dictionaryCheck::section(dict, "fadeOut");
+    entryReader all(read.section("fadeOut", "waves that fade out"));
 
-    wordList names(number_);
-    forAll(names, i)
+    forAll(fades_, i)
     {
-        names[i] = "wave" + Foam::name(i);
-    }
+        const word name("wave" + Foam::name(i));
 
-    dictionaryCheck::entries(fadeDict, {}, names);
-
-    forAll(names, i)
-    {
-        if (!fadeDict.found(names[i]))
+        if (!all.has(name))
         {
             continue;
         }
 
-        const dictionary& waveDict =
-            dictionaryCheck::section(fadeDict, names[i]);
-
-        dictionaryCheck::entries(waveDict, {"from", "to"}, {"fadeBy"});
-
+        entryReader wave(all.section(name, "from, to [m]"));
         fade& f = fades_[i];
 
         f.active = true;
-        f.from = waveDict.get<scalar>("from");
-        f.to = waveDict.get<scalar>("to");
-        f.by = dictionaryCheck::option(
-            waveDict, "fadeBy", placeTypeNames, byTravel
+        f.from = wave.number(
+            "from",
+            "where the fade-out begins [m], not before the waves start,",
+            {start_, true, VGREAT, true}
         );
-
-        if (!(f.from >= start_))
-        {
-            FatalIOErrorInFunction(waveDict)
-                << "Entry 'from' is " << f.from
-                << " m; it must be at least where the waves start, " << start_
-                << " m" << exit(FatalIOError);
-        }
-
-        if (!(f.to > f.from))
-        {
-            FatalIOErrorInFunction(waveDict)
-                << "Entry 'to' is " << f.to
-                << " m; it must be greater than 'from', " << f.from << " m"
-                << exit(FatalIOError);
-        }
+        f.to = wave.number(
+            "to",
+            "where it ends [m], beyond 'from',",
+            {f.from, false, VGREAT, true}
+        );
+        f.by = wave.choice(
+            "fadeBy", "what the fade-out goes by", placeTypeNames, byTravel
+        );
+        wave.rejectOthers();
     }
+    all.rejectOthers();
 }
 
 
@@ -182,32 +137,43 @@ Foam::scalar Foam::antralWaves::leadPoint(const label i, const scalar t) const
 
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
-Foam::antralWaves::antralWaves(const dictionary& dict) :
-    number_(
-        dictionaryCheck::inRange(checked(dict), "number", label(0), label(1001))
+Foam::antralWaves::antralWaves(entryReader read) :
+    number_(read.wholeNumber("number", "waves", {0, true, 1000, true})),
+    start_(
+        read.number("start", "where waves start [m]", entryReader::anything)
     ),
-    start_(dict.get<scalar>("start")),
-    spacing_(dictionaryCheck::positive(dict, "spacing")),
-    speed_(dictionaryCheck::positive(dict, "speed")),
-    wavelength_(dict, "wavelength"),
-    occlusion_(dict, "occlusion"),
-    exponent_(dictionaryCheck::positive(dict, "exponent")),
-    occlusionBy_(
-        dictionaryCheck::option(dict, "occlusionBy", placeTypeNames, byPosition)
+    spacing_(
+        read.number("spacing", "between waves [m]", entryReader::positive)
     ),
-    reading_(
-        dictionaryCheck::option(
-            dict,
-            "reading",
-            readingTypeNames,
-            centreReading
-        )
+    speed_(read.number("speed", "of the waves [m/s]", entryReader::positive)),
+    wavelength_(read.table("wavelength", "x [m], wavelength [m]")),
+    occlusion_(read.table("occlusion", "x [m], occlusion [-]")),
+    exponent_(
+        read.number("exponent", "of the shape [-]", entryReader::positive)
     ),
+    occlusionBy_(read.choice(
+        "occlusionBy",
+        "where the occlusion is taken",
+        placeTypeNames,
+        byPosition
+    )),
+    reading_(read.choice(
+        "reading",
+        "reading of Eq. 14",
+        readingTypeNames,
+        centreReading
+    )),
     fades_()
 {
-    check(dict);
-    readFades(dict);
+    check(read.dict());
+    readFades(read);
+    read.rejectOthers();
 }
+
+
+Foam::antralWaves::antralWaves(const dictionary& dict) :
+    antralWaves(entryReader(dict))
+{}
 
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //

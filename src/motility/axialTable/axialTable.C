@@ -2,7 +2,6 @@
 // Copyright (C) 2026 the bolusFoam developers
 
 #include "axialTable.H"
-#include "dictionaryCheck.H"
 
 #include <algorithm>
 
@@ -93,43 +92,18 @@ void Foam::axialTable::setSlopes()
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
 Foam::axialTable::axialTable(
-    const dictionary& dict,
-    const word& name,
+    const List<Tuple2<scalar, scalar>>& points,
     const interpolationType interpolation
 ) :
-    x_(),
-    y_(),
+    x_(points.size()),
+    y_(points.size()),
     slope_(),
     interpolation_(interpolation)
 {
-    const List<Tuple2<scalar, scalar>> points(
-        dictionaryCheck::table(dict, name)
-    );
-
-    if (points.size() < 2)
-    {
-        FatalIOErrorInFunction(dict)
-            << "Table '" << name << "' has " << points.size()
-            << " point(s); it must have at least 2: " << name
-            << " ((x0 y0) (x1 y1) ...)" << exit(FatalIOError);
-    }
-
-    x_.resize(points.size());
-    y_.resize(points.size());
-
     forAll(points, k)
     {
         x_[k] = points[k].first();
         y_[k] = points[k].second();
-
-        if (k > 0 && !(x_[k] > x_[k - 1]))
-        {
-            FatalIOErrorInFunction(dict)
-                << "Table '" << name << "' is not sorted: x = " << x_[k]
-                << " of point " << k << " follows x = " << x_[k - 1]
-                << "; x must increase from point to point"
-                << exit(FatalIOError);
-        }
     }
 
     if (interpolation_ == monotoneCubic)

@@ -6,35 +6,28 @@
 #include "Pstream.H"
 #include "PstreamReduceOps.H"
 #include "Time.H"
-#include "dictionaryCheck.H"
 #include "polyMesh.H"
 #include "wedgeFrame.H"
 
-// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
+// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
-Foam::vector Foam::lumenMotion::readAxis(const dictionary& dict)
+Foam::lumenMotion::lumenMotion(entryReader read) :
+    wall_(read),
+    origin_(read.value("origin", point(Zero))),
+    axis_(read.direction("axis", "of the lumen", vector(1, 0, 0))),
+    referenceTime_(read.number(
+        "referenceTime",
+        "of the mesh [s]",
+        entryReader::anything,
+        0
+    ))
 {
-    const vector axis(dict.getOrDefault<vector>("axis", vector(1, 0, 0)));
-
-    if (!(mag(axis) > SMALL))
-    {
-        FatalIOErrorInFunction(dict)
-            << "Entry 'axis' is " << axis
-            << "; it must be a direction, for example (1 0 0)"
-            << exit(FatalIOError);
-    }
-
-    return axis / mag(axis);
+    read.rejectOthers();
 }
 
 
-// * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
-
 Foam::lumenMotion::lumenMotion(const dictionary& dict) :
-    wall_(dict),
-    origin_(dict.getOrDefault<point>("origin", point(0, 0, 0))),
-    axis_(readAxis(dict)),
-    referenceTime_(dict.getOrDefault<scalar>("referenceTime", 0))
+    lumenMotion(entryReader(dict))
 {}
 
 

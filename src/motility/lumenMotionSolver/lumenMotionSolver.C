@@ -3,11 +3,14 @@
 
 #include "lumenMotionSolver.H"
 #include "DynamicList.H"
+#include "closedPoints.H"
 #include "addToRunTimeSelectionTable.H"
-#include "dictionaryCheck.H"
+#include "entryReader.H"
 #include "emptyPolyPatch.H"
 #include "polyMesh.H"
 #include "primitiveMeshTools.H"
+
+#include <algorithm>
 
 // * * * * * * * * * * * * * * Static Data Members * * * * * * * * * * * * * //
 
@@ -130,12 +133,62 @@ Foam::tmp<Foam::pointField> Foam::lumenMotionSolver::points(
 {
     tmp<pointField> tp(new pointField(points0()));
 
-    for (point& p : tp.ref())
+    // As lumenMotion::displacement, with the radii of the stations
+    const scalarList& r = radii(t);
+    pointField& p = tp.ref();
+    forAll(p, i)
     {
-        p += motion_->displacement(p, t);
+        const label s = station_[i];
+        p[i] += (r[s] / referenceRadius_[s] - 1) * motion_->radial(p[i]);
     }
 
     return tp;
+}
+
+
+void Foam::lumenMotionSolver::setStations()
+{
+    scalarList x(points0().size());
+    forAll(x, i) x[i] = motion_->axial(points0()[i]);
+
+    x_ = x;
+    sort(x_);
+    x_.resize(label(std::unique(x_.begin(), x_.end()) - x_.begin()));
+
+    station_.resize(x.size());
+    forAll(x, i)
+    {
+        station_[i] =
+            label(std::lower_bound(x_.begin(), x_.end(), x[i]) - x_.begin());
+    }
+
+    referenceRadius_.resize(x_.size());
+    forAll(x_, s)
+    {
+        referenceRadius_[s] =
+            motion_->wall().radius(x_[s], motion_->referenceTime());
+    }
+}
+
+
+const Foam::scalarList& Foam::lumenMotionSolver::radii(const scalar t) const
+{
+    for (const auto& known : radii_)
+    {
+        if (known.first() == t && known.second().size() == x_.size())
+        {
+            return known.second();
+        }
+    }
+
+    // In the place of the older one
+    Swap(radii_[0], radii_[1]);
+    radii_[1].first() = t;
+    scalarList& r = radii_[1].second();
+    r.resize(x_.size());
+    forAll(x_, s) r[s] = motion_->wall().radius(x_[s], t);
+
+    return r;
 }
 
 
@@ -147,24 +200,39 @@ Foam::lumenMotionSolver::lumenMotionSolver(
 ) :
     points0MotionSolver(mesh, dict, typeName),
     motion_(lumenMotion::New(mesh.time())),
-    closedPoints_(IOobject("closedPoints", mesh.time().timeName(), mesh))
+    closedPoints_(IOobject(closedPoints::name, mesh.time().timeName(), mesh)),
+    radii_(Tuple2<scalar, scalarList>(GREAT, scalarList()))
 {
+    setStations();
+
     // Not coeffDict(), which is all of dynamicMeshDict if there is none
     const word coeffsName(typeName + "Coeffs");
 
-    const dictionary& coeffs = dict.found(coeffsName)
-        ? dictionaryCheck::section(dict, coeffsName)
-        : dictionary::null;
-
-    dictionaryCheck::entries(coeffs, {}, {"checkSamples", "wallTolerance"});
+    entryReader read(
+        dict.found(coeffsName)
+            ? entryReader::subDictionary(
+                  dict, coeffsName, "checkSamples, wallTolerance"
+              )
+            : dictionary::null
+    );
+    const scalar tolerance = read.number(
+        "wallTolerance",
+        "of points on the wall, in parts of its radius [-]",
+        entryReader::positive,
+        1e-5
+    );
+    const label nSamples = read.wholeNumber(
+        "checkSamples",
+        "times at which the cells are checked",
+        {0, true, 999999, true},
+        200
+    );
+    read.rejectOthers();
 
     checkDimensions();
 
     motion_->checkCovers(points0());
 
-    const scalar tolerance = coeffs.found("wallTolerance")
-        ? dictionaryCheck::positive(coeffs, "wallTolerance")
-        : 1e-5;
     motion_->checkAxis(mesh, points0(), tolerance);
     motion_->checkWall(points0(), tolerance);
 
@@ -176,13 +244,7 @@ Foam::lumenMotionSolver::lumenMotionSolver(
 
     motion_->wall().writeTimeline(Info, returnReduce(xEnd, maxOp<scalar>()));
 
-    checkCells(
-        coeffs.found("checkSamples")
-            ? dictionaryCheck::inRange(
-                  coeffs, "checkSamples", label(0), label(1000000)
-              )
-            : 200
-    );
+    checkCells(nSamples);
 }
 
 
@@ -202,14 +264,17 @@ void Foam::lumenMotionSolver::solve()
     const scalar t = time().value();
     const scalar tOld = t - time().deltaTValue();
 
-    forAll(points0(), pointi)
+    boolList shut(x_.size());
+    const scalarList before(radii(tOld));
+    const scalarList& now = radii(t);
+    forAll(shut, s)
     {
-        const scalar x = motion_->axial(points0()[pointi]);
-
-        if (motion_->wall().closed(x, tOld) && motion_->wall().closed(x, t))
-        {
-            closed.append(pointi);
-        }
+        shut[s] =
+            motion_->wall().closed(before[s]) && motion_->wall().closed(now[s]);
+    }
+    forAll(station_, pointi)
+    {
+        if (shut[station_[pointi]]) closed.append(pointi);
     }
 
     closedPoints_.transfer(closed);

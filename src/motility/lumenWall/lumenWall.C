@@ -4,7 +4,6 @@
 #include "lumenWall.H"
 #include "DynamicList.H"
 #include "Tuple2.H"
-#include "dictionaryCheck.H"
 
 #include <algorithm>
 
@@ -21,44 +20,35 @@ constexpr Foam::scalar positionTolerance = 1e-9;
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-Foam::scalar Foam::lumenWall::readGap(const dictionary& dict)
-{
-    dictionaryCheck::entries(
-        dict,
-        {"profile", "waves"},
-        {"residualGap", "sphincter", "origin", "axis", "referenceTime"}
-    );
-
-    return dict.found("residualGap")
-        ? dictionaryCheck::positive(dict, "residualGap")
-        : 5e-5;
-}
-
-
 Foam::autoPtr<Foam::pyloricSphincter> Foam::lumenWall::readSphincter(
-    const dictionary& dict,
+    entryReader& read,
     const antralWaves& waves
 )
 {
-    if (!dict.found("sphincter"))
+    if (!read.has("sphincter"))
     {
         return nullptr;
     }
 
     return autoPtr<pyloricSphincter>::New(
-        dictionaryCheck::section(dict, "sphincter"), waves
+        read.section("sphincter", "constriction that closes"), waves
     );
 }
 
 
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
-Foam::lumenWall::lumenWall(const dictionary& dict) :
-    dict_(dict),
-    residualGap_(readGap(dict)),
-    profile_(dictionaryCheck::section(dict, "profile")),
-    waves_(dictionaryCheck::section(dict, "waves")),
-    sphincter_(readSphincter(dict, waves_))
+Foam::lumenWall::lumenWall(entryReader& read) :
+    dict_(read.dict()),
+    residualGap_(read.number(
+        "residualGap",
+        "smallest radius of the lumen [m]",
+        entryReader::positive,
+        5e-5
+    )),
+    profile_(read.section("profile", "radius of the open lumen")),
+    waves_(read.section("waves", "contraction waves")),
+    sphincter_(readSphincter(read, waves_))
 {
     if (hasSphincter())
     {
@@ -67,10 +57,10 @@ Foam::lumenWall::lumenWall(const dictionary& dict) :
         if (xP < profile_.xMin() - positionTolerance
             || xP > profile_.xMax() + positionTolerance)
         {
-            FatalIOErrorInFunction(dict.subDict("sphincter"))
+            FatalIOErrorInFunction(dict_.subDict("sphincter"))
                 << "Entry 'position' is " << xP
-                << " m; it must be within the profile, from " << profile_.xMin()
-                << " m to " << profile_.xMax()
+                << " m; valid are places in the profile, from "
+                << profile_.xMin() << " m to " << profile_.xMax()
                 << " m, which gives the radius there" << exit(FatalIOError);
         }
     }
@@ -116,7 +106,7 @@ void Foam::lumenWall::checkCovers(const scalar xMin, const scalar xMax) const
         || profile_.xMax() < neededEnd - positionTolerance)
     {
         FatalIOErrorInFunction(dict_)
-            << "Table 'profile.radius' reaches from x = " << profile_.xMin()
+            << "Entry 'profile.radius' reaches from x = " << profile_.xMin()
             << " m to " << profile_.xMax()
             << " m and does not cover the mesh: it must reach from " << xMin
             << " m to " << neededEnd << " m" << exit(FatalIOError);
@@ -161,7 +151,7 @@ void Foam::lumenWall::checkCovers(const scalar xMin, const scalar xMax) const
     {
         FatalIOErrorInFunction(dict_)
             << "Entry 'residualGap' is " << residualGap_
-            << " m; it must be less than the smallest radius of the open"
+            << " m; valid is less than the smallest radius of the open"
             << " lumen, which is " << openRadius(xNarrow)
             << " m at x = " << xNarrow << " m" << exit(FatalIOError);
     }

@@ -2,7 +2,6 @@
 // Copyright (C) 2026 the bolusFoam developers
 
 #include "pyloricSphincter.H"
-#include "dictionaryCheck.H"
 
 #include <algorithm>
 
@@ -23,31 +22,6 @@ const Foam::Enum<Foam::pyloricSphincter::triggerType>
     });
 
 
-// * * * * * * * * * * * * * Local Helper Functions  * * * * * * * * * * * * //
-
-namespace
-{
-
-// The dictionary, once its entries are known to be complete and known
-const Foam::dictionary& checked(const Foam::dictionary& dict)
-{
-    Foam::dictionaryCheck::entries(
-        dict,
-        {"position",
-            "length",
-            "relativeOcclusion",
-            "exponent",
-            "closingRate",
-            "trigger"},
-        {"openingRate", "ramp"}
-    );
-
-    return dict;
-}
-
-} // End anonymous namespace
-
-
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
 void Foam::pyloricSphincter::readTrigger(
@@ -55,47 +29,41 @@ void Foam::pyloricSphincter::readTrigger(
     const antralWaves& waves
 )
 {
-    // Here and not in the entries of each type: the type decides on the rest
-    if (!dict.found("type"))
-    {
-        FatalIOErrorInFunction(dict)
-            << "Missing entry 'type'; valid are: "
-            << dictionaryCheck::list(triggerTypeNames.toc()).c_str()
-            << exit(FatalIOError);
-    }
+    entryReader read(dict);
 
-    switch (dictionaryCheck::option(dict, "type", triggerTypeNames, noTrigger))
+    switch (read.choice("type", "what starts the motion", triggerTypeNames))
     {
         case noTrigger:
         {
-            dictionaryCheck::entries(dict, {"type"});
             break;
         }
 
         case waveTrigger:
         {
-            dictionaryCheck::entries(
-                dict, {"type", "position", "closeWave"}, {"openWave"}
-            );
-
             if (!waves.size())
             {
-                FatalIOErrorInFunction(dict)
-                    << "Entry 'type' is wave, but there are no waves"
-                    << " (waves.number is 0); use schedule or none"
-                    << exit(FatalIOError);
+                read.refuse(
+                    "type",
+                    "there are no waves (waves.number is 0), valid are"
+                    " schedule and none"
+                );
             }
 
-            const scalar x = dict.get<scalar>("position");
+            const scalar x = read.number(
+                "position", "of the tip [m]", entryReader::anything
+            );
+            read.require("closeWave", "number of the wave that closes");
 
             for (const bool closing : {true, false})
             {
                 const word name(closing ? "closeWave" : "openWave");
 
-                if (dict.found(name))
+                if (read.has(name))
                 {
-                    const label i = dictionaryCheck::inRange(
-                        dict, name, label(0), waves.size()
+                    const label i = read.wholeNumber(
+                        name,
+                        "number of a wave",
+                        {0, true, scalar(waves.size() - 1), true}
                     );
 
                     addEvents({waves.arrivalTime(i, x)}, closing);
@@ -106,14 +74,13 @@ void Foam::pyloricSphincter::readTrigger(
 
         case scheduleTrigger:
         {
-            dictionaryCheck::entries(dict, {"type", "closeTimes", "openTimes"});
-
-            addEvents(dict.get<scalarList>("closeTimes"), true);
-            addEvents(dict.get<scalarList>("openTimes"), false);
+            addEvents(read.numbers("closeTimes", "list of times [s]"), true);
+            addEvents(read.numbers("openTimes", "list of times [s]"), false);
             break;
         }
     }
 
+    read.rejectOthers();
     checkEvents(dict);
 }
 
@@ -169,31 +136,50 @@ void Foam::pyloricSphincter::checkEvents(const dictionary& dict)
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
 Foam::pyloricSphincter::pyloricSphincter(
+    entryReader read,
+    const antralWaves& waves
+) :
+    position_(read.number(
+        "position",
+        "beginning of the pylorus [m]",
+        entryReader::anything
+    )),
+    length_(
+        read.number("length", "of the sphincter [m]", entryReader::positive)
+    ),
+    relativeOcclusion_(read.number(
+        "relativeOcclusion",
+        "of the open sphincter [-]",
+        {0, true, 1, false}
+    )),
+    exponent_(
+        read.number("exponent", "of the shape [-]", entryReader::positive)
+    ),
+    closingRate_(
+        read.number("closingRate", "rate [1/s]", entryReader::positive)
+    ),
+    openingRate_(read.number(
+        "openingRate",
+        "rate [1/s]",
+        entryReader::positive,
+        closingRate_
+    )),
+    ramp_(
+        read.choice("ramp", "path of the closure", rampTypeNames, smoothRamp)
+    ),
+    events_()
+{
+    readTrigger(read.section("trigger", "what starts the motion"), waves);
+    read.rejectOthers();
+}
+
+
+Foam::pyloricSphincter::pyloricSphincter(
     const dictionary& dict,
     const antralWaves& waves
 ) :
-    position_(checked(dict).get<scalar>("position")),
-    length_(dictionaryCheck::positive(dict, "length")),
-    relativeOcclusion_(
-        dictionaryCheck::inRange(
-            dict,
-            "relativeOcclusion",
-            scalar(0),
-            scalar(1)
-        )
-    ),
-    exponent_(dictionaryCheck::positive(dict, "exponent")),
-    closingRate_(dictionaryCheck::positive(dict, "closingRate")),
-    openingRate_(
-        dict.found("openingRate")
-            ? dictionaryCheck::positive(dict, "openingRate")
-            : closingRate_
-    ),
-    ramp_(dictionaryCheck::option(dict, "ramp", rampTypeNames, smoothRamp)),
-    events_()
-{
-    readTrigger(dictionaryCheck::section(dict, "trigger"), waves);
-}
+    pyloricSphincter(entryReader(dict), waves)
+{}
 
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //

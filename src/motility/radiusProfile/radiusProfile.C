@@ -2,24 +2,24 @@
 // Copyright (C) 2026 the bolusFoam developers
 
 #include "radiusProfile.H"
-#include "dictionaryCheck.H"
+#include "entryReader.H"
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
 Foam::axialTable Foam::radiusProfile::read(const dictionary& dict)
 {
-    dictionaryCheck::entries(dict, {"radius"}, {"interpolation"});
+    entryReader read(dict);
 
     const axialTable table(
-        dict,
-        "radius",
-        dictionaryCheck::option(
-            dict,
+        read.table("radius", "x [m], radius of the wall there [m]"),
+        read.choice(
             "interpolation",
+            "curve between the points of the table",
             axialTable::interpolationTypeNames,
             axialTable::monotoneCubic
         )
     );
+    read.rejectOthers();
 
     const scalarList& r = table.y();
 
@@ -31,8 +31,7 @@ Foam::axialTable Foam::radiusProfile::read(const dictionary& dict)
         {
             FatalIOErrorInFunction(dict)
                 << "Table 'radius' has the radius " << r[k]
-                << " m at x = " << table.x()[k]
-                << " m; a radius must be greater than 0"
+                << " m at x = " << table.x()[k] << " m; valid are radii > 0"
                 << " (only the first and the last may be 0)"
                 << exit(FatalIOError);
         }

@@ -3,7 +3,6 @@
 
 #include "rigidToolMotionSolver.H"
 #include "addToRunTimeSelectionTable.H"
-#include "dictionaryCheck.H"
 #include "polyMesh.H"
 #include "primitiveMeshTools.H"
 #include "symmetryPlanePolyPatch.H"
@@ -15,6 +14,8 @@
 namespace Foam
 {
 defineTypeNameAndDebug(rigidToolMotionSolver, 0);
+
+const word rigidToolMotionSolver::travelName("toolTravel");
 
 addToRunTimeSelectionTable(motionSolver, rigidToolMotionSolver, dictionary);
 }
@@ -49,62 +50,27 @@ Foam::scalar width(
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-const Foam::dictionary& Foam::rigidToolMotionSolver::readCoeffs(
-    const IOdictionary& dict
-) const
+Foam::label Foam::rigidToolMotionSolver::readPatch()
 {
-    const dictionary& coeffs =
-        dictionaryCheck::section(dict, typeName + "Coeffs");
-
-    dictionaryCheck::entries(
-        coeffs,
-        {"patch", "direction", "rigidZone"},
-        {"speed", "history", "axis", "embedded"}
-    );
-
-    return coeffs;
-}
-
-
-Foam::label Foam::rigidToolMotionSolver::readPatch() const
-{
-    const word name(coeffs_.get<word>("patch"));
+    const word name(read_.name("patch", "of the tool's surface"));
     const label patchi = mesh().boundaryMesh().findPatchID(name);
 
     if (patchi < 0)
     {
-        FatalIOErrorInFunction(coeffs_)
-            << "Entry 'patch' is " << name << ", but no patch has this name;"
-            << " valid are " << mesh().boundaryMesh().names()
-            << exit(FatalIOError);
+        read_.refuse(
+            "patch",
+            "no patch has this name; valid are "
+                + entryReader::list(mesh().boundaryMesh().names())
+        );
     }
     if (returnReduce(mesh().boundaryMesh()[patchi].size(), sumOp<label>()) == 0)
     {
-        FatalIOErrorInFunction(coeffs_)
-            << "Entry 'patch' is " << name << ", which has no faces; valid is"
-            << " the patch of the tool's surface" << exit(FatalIOError);
+        read_.refuse(
+            "patch", "it has no faces; valid is the patch of the tool's surface"
+        );
     }
 
     return patchi;
-}
-
-
-Foam::vector Foam::rigidToolMotionSolver::readDirection(
-    const word& name,
-    const vector& byDefault
-) const
-{
-    const vector v(coeffs_.lookupOrDefault<vector>(name, byDefault));
-
-    if (mag(v) < VSMALL)
-    {
-        FatalIOErrorInFunction(coeffs_)
-            << "Entry '" << name << "' is " << v
-            << " and has no direction; valid is any vector of length > 0"
-            << exit(FatalIOError);
-    }
-
-    return v / mag(v);
 }
 
 
@@ -130,21 +96,20 @@ void Foam::rigidToolMotionSolver::setExtents()
     reduce(back_, minOp<scalar>());
     reduce(front_, maxOp<scalar>());
 
-    dictionaryCheck::isList(coeffs_, "rigidZone", "(ahead behind) [m]");
-    const FixedList<scalar, 2> margins(
-        coeffs_.get<FixedList<scalar, 2>>("rigidZone")
+    const Tuple2<scalar, scalar> margins(
+        read_.pair("rigidZone", "(ahead behind) [m]")
     );
 
-    if (!(margins[0] > 0) || !(margins[1] > 0))
+    if (!(margins.first() > 0) || !(margins.second() > 0))
     {
-        FatalIOErrorInFunction(coeffs_)
-            << "Entry 'rigidZone' is (" << margins[0] << " " << margins[1]
-            << ") m; valid are two numbers > 0: ahead of the tool and behind"
-            << " it" << exit(FatalIOError);
+        read_.refuse(
+            "rigidZone",
+            "valid are two lengths > 0 m: ahead of the tool and behind it"
+        );
     }
 
-    zoneMax_ = front_ + margins[0];
-    zoneMin_ = back_ - margins[1];
+    zoneMax_ = front_ + margins.first();
+    zoneMin_ = back_ - margins.second();
 }
 
 
@@ -158,8 +123,8 @@ void Foam::rigidToolMotionSolver::checkWay(
 
     if (!(most < ahead) || !(-least < behind))
     {
-        FatalIOErrorInFunction(coeffs_)
-            << "Entry '" << (coeffs_.found("speed") ? "speed" : "history")
+        FatalIOErrorInFunction(read_.dict())
+            << "Entry '" << (read_.dict().found("speed") ? "speed" : "history")
             << "': the tool leaves the mesh: its travel between "
             << time().value() << " s and " << time().endTime().value()
             << " s goes from " << least << " m to " << most
@@ -177,7 +142,7 @@ void Foam::rigidToolMotionSolver::checkThickness() const
     vector across(axis_ ^ d_);
     if (mag(across) < SMALL)
     {
-        FatalIOErrorInFunction(coeffs_)
+        FatalIOErrorInFunction(read_.dict())
             << "Entry 'axis' is " << axis_ << ", along the direction " << d_
             << "; valid is a tool whose long axis is across its way"
             << exit(FatalIOError);
@@ -236,7 +201,7 @@ void Foam::rigidToolMotionSolver::checkThickness() const
 
     if (!(thickness >= 3 * size))
     {
-        FatalIOErrorInFunction(coeffs_)
+        FatalIOErrorInFunction(read_.dict())
             << "Entry 'patch' is " << pp.name() << ", a tool of " << thickness
             << " m across its way, which is " << thickness / size
             << " cells of its surface (" << size << " m); valid are tools of"
@@ -275,7 +240,7 @@ void Foam::rigidToolMotionSolver::checkCells(const scalar travel) const
 
     if (!(smallest > 0))
     {
-        FatalIOErrorInFunction(coeffs_)
+        FatalIOErrorInFunction(read_.dict())
             << "Entry 'rigidZone': the motion inverts cells: after a travel of "
             << travel << " m the smallest face pyramid has " << smallest
             << " m3; valid is a mesh whose pyramids stay greater than 0"
@@ -308,7 +273,7 @@ void Foam::rigidToolMotionSolver::checkOutside() const
 
     if (fullest > 0.5)
     {
-        FatalIOErrorInFunction(coeffs_)
+        FatalIOErrorInFunction(read_.dict())
             << "Entry 'embedded' is no, but the tool " << pp.name()
             << " starts inside the bolus: a cell at its side has alpha "
             << fullest << "; valid are alpha <= 0.5 everywhere but at the"
@@ -343,34 +308,35 @@ Foam::rigidToolMotionSolver::rigidToolMotionSolver(
     const IOdictionary& dict
 ) :
     points0MotionSolver(mesh, dict, typeName),
-    coeffs_(readCoeffs(dict)),
+    read_(entryReader::subDictionary(dict, typeName + "Coeffs", "of the tool")),
     patch_(readPatch()),
-    d_(readDirection("direction", Zero)),
-    axis_(readDirection("axis", vector(0, 0, 1))),
+    d_(read_.direction("direction", "of the way")),
+    axis_(read_.direction("axis", "of the tool", vector(0, 0, 1))),
     history_(
-        coeffs_,
+        read_,
         mesh.time().value(),
         max(mesh.time().value(), mesh.time().endTime().value())
     ),
-    embedded_(coeffs_.lookupOrDefault("embedded", false)),
+    embedded_(read_.flag("embedded", "does it start in the bolus?", false)),
     // A run that goes on has the tool where it belongs
     unchecked_(!embedded_ && history_.travel(mesh.time().value()) == 0),
     travel_(
         IOobject(
-            "toolTravel",
+            travelName,
             mesh.time().timeName(),
             mesh,
             IOobject::NO_READ,
             IOobject::NO_WRITE
         ),
         dimensionedScalar(
-            "toolTravel",
+            travelName,
             dimLength,
             history_.travel(mesh.time().value())
         )
     )
 {
     setExtents();
+    read_.rejectOthers();
 
     scalar least, most;
     history_.extremes(

@@ -3,6 +3,7 @@
 
 #include "toolForce.H"
 #include "addToRunTimeSelectionTable.H"
+#include "rigidToolMotionSolver.H"
 #include "uniformDimensionedFields.H"
 #include "volFields.H"
 
@@ -15,29 +16,6 @@ namespace functionObjects
 defineTypeNameAndDebug(toolForce, 0);
 addToRunTimeSelectionTable(functionObject, toolForce, dictionary);
 }
-}
-
-
-// * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
-
-Foam::vector Foam::functionObjects::toolForce::readUnit(
-    const dictionary& dict,
-    const word& entry,
-    const vector& byDefault
-) const
-{
-    const vector v(dict.lookupOrDefault<vector>(entry, byDefault));
-
-    if (mag(v) < VSMALL)
-    {
-        FatalIOErrorInFunction(dict)
-            << "entry " << entry << ": "
-            << (dict.found(entry) ? "it" : "it is missing and")
-            << " has no direction; valid is any vector of length > 0"
-            << exit(FatalIOError);
-    }
-
-    return v / mag(v);
 }
 
 
@@ -72,7 +50,7 @@ Foam::scalarList Foam::functionObjects::toolForce::values()
     const volVectorField& wallForce =
         mesh_.lookupObject<volVectorField>("wallForce");
 
-    const word travelName("toolTravel");
+    const word& travelName = rigidToolMotionSolver::travelName;
     const scalar travel =
         mesh_.foundObject<uniformDimensionedScalarField>(travelName)
         ? mesh_.lookupObject<uniformDimensionedScalarField>(travelName).value()
@@ -140,18 +118,11 @@ Foam::functionObjects::toolForce::toolForce(
     const Time& runTime,
     const dictionary& dict
 ) :
-    bolusMonitor(
-        name,
-        runTime,
-        dict,
-        typeName,
-        {"mass", "wallForce"},
-        {"patches", "direction", "axis", "origin"}
-    ),
-    patches_(readPatches(dict, "patches", true)),
-    direction_(readUnit(dict, "direction", Zero)),
-    axis_(readUnit(dict, "axis", vector(0, 0, 1))),
-    origin_(dict.lookupOrDefault<point>("origin", Zero))
+    bolusMonitor(name, runTime, dict, typeName, {"mass", "wallForce"}),
+    patches_(readPatches("patches", true)),
+    direction_(entries().direction("direction", "of the way")),
+    axis_(entries().direction("axis", "of the tool", vector(0, 0, 1))),
+    origin_(entries().value("origin", point(Zero)))
 {
     begin();
 }

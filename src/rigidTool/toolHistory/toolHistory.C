@@ -3,24 +3,22 @@
 
 #include "toolHistory.H"
 
-#include "dictionaryCheck.H"
-#include "Tuple2.H"
 
 #include <algorithm>
 
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
 Foam::toolHistory::toolHistory(
-    const dictionary& dict,
+    entryReader& read,
     const scalar start,
     const scalar end
 )
 {
-    const bool constant = dict.found("speed");
+    const bool constant = read.has("speed");
 
-    if (constant == dict.found("history"))
+    if (constant == read.has("history"))
     {
-        FatalIOErrorInFunction(dict)
+        FatalIOErrorInFunction(read.dict())
             << "Entries 'speed' and 'history': "
             << (constant ? "both are" : "neither is")
             << " there; valid is one of them: speed v; or history ((t v) ...)"
@@ -31,22 +29,16 @@ Foam::toolHistory::toolHistory(
     {
         const scalar first = min(start, scalar(0));
         t_ = scalarList({first, max(end, first) + 1});
-        v_ = scalarList(2, dict.get<scalar>("speed"));
+        v_ = scalarList(
+            2, read.number("speed", "of the tool [m/s]", entryReader::anything)
+        );
         s_ = scalarList({first * v_[0], t_[1] * v_[0]});
         return;
     }
 
     const List<Tuple2<scalar, scalar>> points(
-        dictionaryCheck::table(dict, "history")
+        read.table("history", "time [s], speed [m/s]")
     );
-
-    if (points.size() < 2)
-    {
-        FatalIOErrorInFunction(dict)
-            << "Entry 'history' has " << points.size()
-            << " point(s); it must have at least 2: history ((t0 v0) (t1 v1)"
-            << " ...)" << exit(FatalIOError);
-    }
 
     t_.resize(points.size());
     v_.resize(points.size());
@@ -63,14 +55,6 @@ Foam::toolHistory::toolHistory(
             continue;
         }
 
-        if (!(t_[k] > t_[k - 1]))
-        {
-            FatalIOErrorInFunction(dict)
-                << "Entry 'history' is not sorted: t = " << t_[k]
-                << " of point " << k << " follows t = " << t_[k - 1]
-                << "; t must increase from point to point"
-                << exit(FatalIOError);
-        }
         s_[k] = s_[k - 1] + 0.5 * (v_[k - 1] + v_[k]) * (t_[k] - t_[k - 1]);
     }
 
@@ -78,7 +62,7 @@ Foam::toolHistory::toolHistory(
 
     if (t_.first() > start + slack || t_.last() < end - slack)
     {
-        FatalIOErrorInFunction(dict)
+        FatalIOErrorInFunction(read.dict())
             << "Entry 'history' goes from t = " << t_.first() << " s to "
             << t_.last() << " s and does not cover the run, " << start
             << " s to " << end << " s; valid is a table that does"

@@ -2,10 +2,10 @@
 // Copyright (C) 2026 the bolusFoam developers
 
 #include "nodalSpace.H"
+#include "closedPoints.H"
 #include "surfaceFields.H"
 #include "globalMeshData.H"
 #include "globalIndex.H"
-#include "labelIOList.H"
 #include "syncTools.H"
 #include "wallPolyPatch.H"
 #include "wedgePolyPatch.H"
@@ -324,13 +324,7 @@ void Foam::nodalSpace::setConstraints(const scalar deltaT)
     nNormals_ = nFixed_;
 
     // Where the lumen is closed nothing passes
-    if (mesh_.foundObject<labelIOList>("closedPoints"))
-    {
-        for (const label p : mesh_.lookupObject<labelIOList>("closedPoints"))
-        {
-            full[pointNode_[p]] = true;
-        }
-    }
+    for (const label p : closedPoints::of(mesh_)) full[pointNode_[p]] = true;
 
     forAll(full, n)
     {

@@ -3,6 +3,7 @@
 
 #include "stepControl.H"
 #include "caseScales.H"
+#include "entryReader.H"
 
 namespace Foam
 {
@@ -16,20 +17,6 @@ struct quietTimeState : public TimeState
         writeTime_ = false;
     }
 };
-
-static void requirePositive(
-    const dictionary& dict,
-    const word& name,
-    const scalar v
-)
-{
-    if (!(v > 0))
-    {
-        FatalIOErrorInFunction(dict)
-            << "entry " << name << ": " << v << "; valid are numbers > 0"
-            << exit(FatalIOError);
-    }
-}
 
 } // End namespace Foam
 
@@ -54,10 +41,9 @@ Foam::stepControl::stepControl(Time& time) :
 {
     read();
 
-    const dictionary& dict = time_.controlDict();
-    deltaT_ =
-        memory_.lookupOrDefault<scalar>("deltaT", dict.get<scalar>("deltaT"));
-    requirePositive(dict, "deltaT", deltaT_);
+    deltaT_ = entryReader(time_.controlDict())
+                  .number("deltaT", "first step [s]", entryReader::positive);
+    memory_.readIfPresent("deltaT", deltaT_);
 }
 
 
@@ -78,36 +64,36 @@ void Foam::stepControl::read()
         if (similar && !own.found(key))
         {
             FatalIOErrorInFunction(dict)
-                << "entry " << key << " is not known; valid are " << own
-                << exit(FatalIOError);
+                << "Unknown entry '" << key << "'; valid entries are "
+                << flatOutput(own) << exit(FatalIOError);
         }
     }
 
     const scalar slow = 0.1 / caseScales::readStrainRate(dict);
+    const auto& positive = entryReader::positive;
+    entryReader read(dict);
     const scalar maxDeltaT =
-        dict.lookupOrDefault<scalar>("maxDeltaT", 0.05 * slow);
+        read.number("maxDeltaT", "largest step [s]", positive, 0.05 * slow);
     const scalar minDeltaT =
-        dict.lookupOrDefault<scalar>("minDeltaT", 1e-5 * slow);
-    const scalar maxCourant = dict.lookupOrDefault<scalar>("maxCourant", 1);
-    const label easyIterations =
-        dict.lookupOrDefault<label>("easyIterations", 8);
-    requirePositive(dict, "maxDeltaT", maxDeltaT);
-    requirePositive(dict, "minDeltaT", minDeltaT);
-    requirePositive(dict, "maxCourant", maxCourant);
-    requirePositive(dict, "easyIterations", easyIterations);
+        read.number("minDeltaT", "smallest step [s]", positive, 1e-5 * slow);
+    const scalar maxCourant =
+        read.number("maxCourant", "Courant number [-]", positive, 1);
+    const label easyIterations = read.wholeNumber(
+        "easyIterations", "Newton iterations of an easy step", positive, 8
+    );
     if (minDeltaT > maxDeltaT)
     {
         FatalIOErrorInFunction(dict)
-            << "entry minDeltaT: " << minDeltaT << " s; valid are numbers up to"
-            << " maxDeltaT, " << maxDeltaT << " s" << exit(FatalIOError);
+            << "Entry 'minDeltaT' is " << minDeltaT << "; valid are numbers up"
+            << " to maxDeltaT, " << maxDeltaT << " s" << exit(FatalIOError);
     }
 
     scalar writeInterval = 0;
-    const word control(dict.get<word>("writeControl"));
+    const word control(read.name("writeControl", "when to write"));
     if (control == "adjustableRunTime" || control == "adjustable")
     {
-        writeInterval = dict.get<scalar>("writeInterval");
-        requirePositive(dict, "writeInterval", writeInterval);
+        writeInterval =
+            read.number("writeInterval", "time between outputs [s]", positive);
     }
 
     // All of them are good

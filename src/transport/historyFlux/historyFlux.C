@@ -59,16 +59,47 @@ void Foam::historyFlux::setStays(const transportZone& z, const scalar dt)
     // where a cell is not moved now
     for (const label c : z.cells) calm_[c] = 0;
     for (const label c : z.moved) calm_[c] = stays_[c];
-    exchange(z, calm_, 1, staysBeyond_);
+    exchange(z, calm_, 1, beyond_.stays);
     for (const label f : z.faces)
     {
         heun_[f] = full_[f]
-            && min(
-                   calm_[own[f]],
-                   f < nInternal ? calm_[nei[f]] : staysBeyond_[exchange_.at(f)]
-               ) > 0.5;
+            && min(calm_[own[f]],
+                   f < nInternal ? calm_[nei[f]]
+                                 : beyond_.stays[exchange_.at(f)])
+                > 0.5;
     }
-    exchange(z, stays_, 1, staysBeyond_);
+    exchange(z, stays_, 1, beyond_.stays);
+}
+
+
+void Foam::historyFlux::setFull(
+    const transportZone& z,
+    const scalarField& alpha
+)
+{
+    // Memory is interpolated only between cells with bolus
+    auto set = [&](const label f)
+    {
+        full_[f] = min(alpha[mesh_.faceOwner()[f]], bolus_.beyond(f, alpha))
+            > memoryAbove_;
+    };
+    for (const label f : z.faces) set(f);
+    for (const label f : z.given) set(f);
+
+    rim_.clear();
+    for (const label c : z.cells)
+    {
+        if (alpha[c] <= memoryAbove_) continue;
+        bool all = true;
+        bool some = false;
+        for (const label f : mesh_.cells()[c])
+        {
+            if (f >= mesh_.nInternalFaces() && !exchange_.coupled(f)) continue;
+            all = all && full_[f];
+            some = some || full_[f];
+        }
+        if (some && !all) rim_.append(c);
+    }
 }
 
 
@@ -100,14 +131,14 @@ void Foam::historyFlux::setBounds(const transportZone& z)
         const bool internal = f < nInternal;
         widen(
             own[f],
-            internal ? &q[nei[f] * n] : &memoryBeyond_[exchange_.at(f, n)]
+            internal ? &q[nei[f] * n] : &beyond_.memory[exchange_.at(f, n)]
         );
         if (internal) widen(nei[f], &q[own[f] * n]);
     };
     for (const label f : z.faces) see(f);
     for (const label f : z.given) see(f);
-    exchange(z, least_, n, leastBeyond_);
-    exchange(z, most_, n, mostBeyond_);
+    exchange(z, least_, n, beyond_.least);
+    exchange(z, most_, n, beyond_.most);
 }
 
 
@@ -120,18 +151,19 @@ void Foam::historyFlux::setFaces(const transportZone& z, scalarField& faces)
     const scalarField& q = memory_.values();
     const scalarField& F = bolus_.F();
 
-    exchange(z, q, n, memoryBeyond_);
+    exchange(z, q, n, beyond_.memory);
+    const auto full = [&](const label f) { return full_[f]; };
     leastSquaresGradient::set(
-        mesh_,
-        exchange_,
-        z,
-        q,
-        memoryBeyond_,
-        n,
-        [&](const label f) { return full_[f]; },
-        gradient_
+        mesh_, exchange_, z, q, beyond_.memory, n, full, gradient_
     );
-    exchange(z, gradient_, 3 * n, gradientBeyond_);
+    const auto delta = [&](const label f) { return step_.delta(f); };
+    for (const label c : rim_)
+    {
+        leastSquaresGradient::setAtRim(
+            mesh_, exchange_, c, q, beyond_.memory, n, full, delta, gradient_
+        );
+    }
+    exchange(z, gradient_, 3 * n, beyond_.gradient);
 
     // The slope may not count on values that no neighbour has
     setBounds(z);
@@ -152,7 +184,7 @@ void Foam::historyFlux::setFaces(const transportZone& z, scalarField& faces)
         }
         const scalar* qP = &q[P * n];
         const scalar* qN = internal ? &q[nei[f] * n]
-            : coupled               ? &memoryBeyond_[exchange_.at(f, n)]
+            : coupled               ? &beyond_.memory[exchange_.at(f, n)]
                                     : nullptr;
         const scalar* qD = forward ? qP : qN;
         if (F[f] == 0 || !full_[f])
@@ -170,10 +202,10 @@ void Foam::historyFlux::setFaces(const transportZone& z, scalarField& faces)
                 : internal ? &cells[nei[f] * width]
                            : &others[exchange_.at(f, width)];
         };
-        const scalar* gD = donor(gradient_, gradientBeyond_, 3 * n);
-        const scalar* least = donor(least_, leastBeyond_, n);
-        const scalar* most = donor(most_, mostBeyond_, n);
-        const scalar rest = *donor(stays_, staysBeyond_, 1);
+        const scalar* gD = donor(gradient_, beyond_.gradient, 3 * n);
+        const scalar* least = donor(least_, beyond_.least, n);
+        const scalar* most = donor(most_, beyond_.most, n);
+        const scalar rest = *donor(stays_, beyond_.stays, 1);
         const scalar part = min(rest / max(1 - rest, SMALL), scalar(1));
         const vector& d = step_.delta(f);
         const scalar sign = forward ? 1 : -1;
@@ -300,15 +332,7 @@ void Foam::historyFlux::set(
     const scalar dt
 )
 {
-    // Memory is interpolated only between cells with bolus
-    auto setFull = [&](const label f)
-    {
-        full_[f] = min(alpha[mesh_.faceOwner()[f]], bolus_.beyond(f, alpha))
-            > memoryAbove_;
-    };
-    for (const label f : z.faces) setFull(f);
-    for (const label f : z.given) setFull(f);
-
+    setFull(z, alpha);
     setMasses(z, m, dt);
     setStays(z, dt);
 
@@ -340,12 +364,12 @@ void Foam::historyFlux::follow(const transportZone& z, const label fine)
 {
     const label n = memory_.n();
     const scalarField& q = memory_.values();
-    exchange(z, q, n, memoryBeyond_);
+    exchange(z, q, n, beyond_.memory);
     for (const label f : z.led)
     {
         const label D = step_.donor(f);
         const scalar* qD =
-            D >= 0 ? &q[D * n] : &memoryBeyond_[exchange_.at(f, n)];
+            D >= 0 ? &q[D * n] : &beyond_.memory[exchange_.at(f, n)];
         for (label k = 0; k < n; ++k)
         {
             faces_[f * n + k] = qD[k];
