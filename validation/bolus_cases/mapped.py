@@ -209,7 +209,7 @@ def build(
         elif given.motion == "still":
             displacement[name] = "type fixedValue; value uniform (0 0 0);"
         else:
-            _write_motion(case, mesh, name, given.motion, knots or (0, end))
+            write_motion(case, mesh, name, given.motion, knots or (0, end))
             displacement[name] = (
                 "type timeVaryingMappedFixedValue; "
                 "setAverage off; perturb 0; mapMethod nearest; "
@@ -264,7 +264,7 @@ def build(
     return mesh
 
 
-def _write_motion(case: Path, mesh: Mesh, name: str, motion, knots) -> None:
+def write_motion(case: Path, mesh: Mesh, name: str, motion, knots) -> None:
     """Displacements of a patch's points at the knots, as boundaryData."""
     labels = np.unique(
         np.concatenate([mesh.faces[i] for i in mesh.patches[name].faces])

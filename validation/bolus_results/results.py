@@ -143,33 +143,17 @@ def run_numbers(path: Path) -> dict:
 # Function object: columns of which results.json has the final value and peak
 _COLUMNS = {
     "contactForce": (
-        "total",
-        "normal",
-        "tangential",
-        "axial",
-        "resultant",
-        "tensile",
-        "total_perMass",
-        "resultant_perMass",
-    ),
-    "externalWork": ("power", "work", "work_perMass"),
+        "total normal tangential axial resultant tensile "
+        "total_perMass resultant_perMass"
+    ).split(),
+    "externalWork": "power work work_perMass".split(),
     "retainedMass": (
-        "inside",
-        "emptied",
-        "retained",
-        "upstream",
-        "balanceError",
-        "passedWhileClosed",
-    ),
+        "inside emptied retained upstream balanceError passedWhileClosed"
+    ).split(),
     "freeSurface": (
-        "volume",
-        "freeArea",
-        "contactArea",
-        "externalArea",
-        "surfaceToVolume",
-    ),
-    "damagedVolume": ("bolus", "damaged", "fraction"),
-    # All that they have
+        "volume freeArea contactArea externalArea surfaceToVolume"
+    ).split(),
+    "damagedVolume": "bolus damaged fraction".split(),
     "energyBalance": None,
     "fragments": None,
     "jets": None,

@@ -17,93 +17,35 @@ from bolus_results.foam_files import FoamFileError
 from bolus_results.locking import alone_in
 from bolus_results.measure import number_at
 
-# (title, path of the number in results.json, factor, unit shown, format)
-_LINES = (
-    ("simulated", "run.simulatedTime", 1, "s", ".6g"),
-    ("time steps", "run.steps", 1, "", "d"),
-    ("rejected", "run.rejectedSteps", 1, "", "d"),
-    ("friction lagged", "run.laggedSteps", 1, "", "d"),
-    ("turning lagged", "run.turnedLaterSteps", 1, "", "d"),
-    ("Newton iterations", "run.newtonIterations", 1, "", "d"),
-    ("cells", "run.cells", 1, "", "d"),
-    ("cores", "run.cores", 1, "", "d"),
-    ("solver's clock time", "run.clockTime", 1, "s", ".4g"),
-    (
-        "force on the wall, peak",
-        "results.contactForce.total_perMass.peak",
-        1,
-        "N/g",
-        ".4g",
-    ),
-    (
-        "work of the wall",
-        "results.externalWork.work_perMass.final",
-        1,
-        "mJ/g",
-        ".4g",
-    ),
-    (
-        "bolus retained",
-        "results.retainedMass.retained.final",
-        100,
-        "%",
-        ".4g",
-    ),
-    (
-        "passed while closed",
-        "results.retainedMass.passedWhileClosed.final",
-        100,
-        "%",
-        ".2g",
-    ),
-    (
-        "largest mass error",
-        "results.retainedMass.balanceError.peak",
-        100,
-        "%",
-        ".2g",
-    ),
-    ("overfull steps", "run.overfullSteps", 1, "", "d"),
-    ("spilled", "run.spilled", 100, "% of the bolus", ".2g"),
-    (
-        "energy residual",
-        "results.energyBalance.relative.final",
-        100,
-        "% of the work",
-        ".2g",
-    ),
-    (
-        "taken by the void",
-        "results.energyBalance.shares.void",
-        100,
-        "% of the work",
-        ".2g",
-    ),
-    (
-        "by broken bolus's viscosity",
-        "results.energyBalance.shares.debris",
-        100,
-        "% of the work",
-        ".2g",
-    ),
-    (
-        "by the stabilisation",
-        "results.energyBalance.shares.stabilisation",
-        100,
-        "% of the work",
-        ".2g",
-    ),
-    ("damaged", "results.damagedVolume.fraction.final", 100, "%", ".3g"),
-    (
-        "external surface",
-        "results.freeSurface.externalArea.final",
-        1e6,
-        "mm2",
-        ".4g",
-    ),
-    ("alpha, smallest", "run.alphaMin", 1, "", ".2g"),
-    ("alpha, largest", "run.alphaMax", 1, "", ".6g"),
-)
+# Title | path of the number in results.json or its results | format | unit
+_LINES = """
+simulated | run.simulatedTime | .6g | s
+time steps | run.steps | d |
+rejected | run.rejectedSteps | d |
+friction lagged | run.laggedSteps | d |
+turning lagged | run.turnedLaterSteps | d |
+Newton iterations | run.newtonIterations | d |
+cells | run.cells | d |
+cores | run.cores | d |
+solver's clock time | run.clockTime | .4g | s
+force on the wall, peak | contactForce.total_perMass.peak | .4g | N/g
+work of the wall | externalWork.work_perMass.final | .4g | mJ/g
+bolus retained | retainedMass.retained.final | .4g | %
+passed while closed | retainedMass.passedWhileClosed.final | .2g | %
+largest mass error | retainedMass.balanceError.peak | .2g | %
+overfull steps | run.overfullSteps | d |
+spilled | run.spilled | .2g | % of the bolus
+energy residual | energyBalance.relative.final | .2g | % of the work
+taken by the void | energyBalance.shares.void | .2g | % of the work
+by broken bolus's viscosity | energyBalance.shares.debris | .2g | % of the work
+by the stabilisation | energyBalance.shares.stabilisation | .2g | % of the work
+damaged | damagedVolume.fraction.final | .3g | %
+external surface | freeSurface.externalArea.final | .4g | mm2
+alpha, smallest | run.alphaMin | .2g |
+alpha, largest | run.alphaMax | .6g |
+"""
+# From the units of results.json to those shown
+_FACTORS = {"%": 100, "mm2": 1e6}
 
 
 def summary(path) -> str:
@@ -115,11 +57,12 @@ def summary(path) -> str:
     results = json.loads(source.read_text())
 
     lines = []
-    for title, place, factor, unit, form in _LINES:
-        number = number_at(results, place)
+    for line in _LINES.strip().splitlines():
+        title, place, form, unit = map(str.strip, line.split("|"))
+        number = number_at(results | results["results"], place)
         if number is None:
             continue
-        scaled = factor * number["value"]
+        scaled = number["value"] * _FACTORS.get(unit.split(" ")[0], 1)
         text = f"{title:<28}{scaled:{form}} {unit}".rstrip()
         if "time" in number:
             text += f" at {number['time']:.4g} s"

@@ -88,9 +88,7 @@ def limit(folder: Path, quick: bool) -> Findings:
     axis.axhline(ROUGH, color="k", ls="--", label="exact")
     axis.set(xlabel="travel / radius", ylabel="force / (s_u d T)", ylim=(0, 14))
     axis.legend()
-    figure.savefig(folder / "force.png", dpi=120)
-    plt.close(figure)
-    found.picture = "force.png"
+    found.draw(figure, folder / "force.png")
     return found
 
 
@@ -164,8 +162,7 @@ def cylinder_fe(folder: Path, quick: bool) -> Findings:
             )
     axis.set(xlabel="travel [mm]", ylabel="force / thickness [N/mm]")
     axis.legend()
-    figure.savefig(folder / "force.png", dpi=120)
-    plt.close(figure)
+    found.draw(figure, folder / "force.png")
     found.remarks.append(
         "At 0.1 mm our force is the higher. Half of that is the void, which "
         "resists where tool and block close (voidStress 10 Pa in the "
@@ -173,7 +170,6 @@ def cylinder_fe(folder: Path, quick: bool) -> Findings:
         "step (a quarter: 1 % less), nor the stiffness of the contact of "
         "CalculiX (a tenth: its force 1 % less); not explained."
     )
-    found.picture = "force.png"
     return found
 
 

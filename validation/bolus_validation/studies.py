@@ -28,6 +28,7 @@ from concurrent.futures import ProcessPoolExecutor, as_completed
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
 
+import matplotlib.pyplot as plt
 import numpy as np
 from bolus_results.html import render
 from bolus_results.locking import FolderBusy, alone_in, locked
@@ -115,6 +116,12 @@ class Findings:
         """Add an Order."""
         self.orders.append(Order(*args, **named))
         return self.orders[-1]
+
+    def draw(self, figure, target: Path) -> None:
+        """Save a figure as the picture of the study."""
+        figure.savefig(target, dpi=120)
+        plt.close(figure)
+        self.picture = target.name
 
     @property
     def met(self) -> bool:

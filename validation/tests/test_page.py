@@ -28,7 +28,15 @@ def runs(tmp_path_factory):
     base = tmp_path_factory.mktemp("page")
     for name in ("soft", "hard"):
         material = {"soft": "JLaw", "hard": "viscoplastic"}[name]
-        compression(base / name, material=material, strain=0.1)
+        compression(
+            base / name,
+            material=material,
+            strain=0.1,
+            unloadStrain=0,
+            writeStrain=0.05,
+            nAxial=10,
+            nRadial=20,
+        )
     return base / "soft", base / "hard"
 
 

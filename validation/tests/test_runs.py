@@ -155,13 +155,26 @@ def test_a_signal_tells_time_and_last_written_time(case, name):
 FIELDS = ("alpha", "U", "p", "mass", "deviator", "pointU", "phiRel", "stress")
 
 
-@pytest.mark.parametrize("name", FIELDS)
-@pytest.mark.parametrize("value", [np.nan, np.inf])
-def test_a_field_with_what_is_no_number_is_named(case, name, value):
+@pytest.fixture(scope="module")
+def stopped(prepared, tmp_path_factory):
+    """A run that may go on from 0.5 s, with binary fields."""
+    case = tmp_path_factory.mktemp("stopped") / "case"
+    shutil.copytree(prepared, case)
     control(case, "endTime", 0.5)
     control(case, "writeFormat", "binary")
     run(case, "bolusFoam")
     control(case, "endTime", 2)
+    return case
+
+
+@pytest.mark.parametrize(
+    ("name", "value"), [("U", np.inf), *((name, np.nan) for name in FIELDS)]
+)
+def test_a_field_with_what_is_no_number_is_named(
+    stopped, tmp_path, name, value
+):
+    case = tmp_path / "case"
+    shutil.copytree(stopped, case)
     path = case / "0.5" / name
     data = bytearray(path.read_bytes())
     # The third value of the internal field

@@ -15,7 +15,6 @@ from bolus_results.profiling import PHASES, phases, read_profile
 from bolus_results.results import write_json
 from bolus_results.summary import summary
 from bolus_validation import gastric_study, speed_study, stock
-from bolus_validation.speed_study import stock_wire
 from bolus_validation.studies import REGISTRY, ROOT
 
 
@@ -159,13 +158,6 @@ def test_inter_foam_compresses_the_same_cylinder(tmp_path):
     exact = stock.exact_force(2e-3 * times[-1:], 2e-3)
     assert stock.SECTORS * force[-1] == pytest.approx(exact[0], rel=0.07)
     assert seconds > 0
-
-
-def test_a_wire_by_inter_foam_and_by_bolus_foam(tmp_path):
-    # Found 7.3 % (bolusFoam) and 5.1 % above limit analysis, on 4 cells
-    found = stock_wire(tmp_path, quick=True)
-    errors = [row.error for row in found.rows if row.error is not None]
-    assert len(errors) == 2 and max(errors) < 0.08
 
 
 def test_openblas_takes_kernels_of_this_processor():

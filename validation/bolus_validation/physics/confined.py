@@ -7,6 +7,7 @@ import shutil
 from pathlib import Path
 
 import numpy as np
+from bolus_cases.mapped import draw_cells
 from bolus_cases.specimens import (
     ROOT,
     SLIDING,
@@ -27,7 +28,6 @@ from bolus_cases.synthetic import (
 from bolus_results.fields import Case
 from bolus_results.tables import read_table
 from matplotlib import pyplot as plt
-from matplotlib.collections import PolyCollection
 
 from bolus_validation.studies import Findings, study
 
@@ -239,20 +239,15 @@ def converging_tube(folder: Path, quick: bool) -> Findings:
     axes[0].legend(fontsize=7)
     fields = Case(case)
     end = max(fields.times)
-    section = fields.mesh(end).section
-    cells = PolyCollection(
-        [1e3 * polygon for polygon in section.polygons],
-        array=fields.field(end, "epsilonPEq")[section.cells],
+    draw_cells(
+        axes[1],
+        fields.mesh(end),
+        fields.field(end, "epsilonPEq"),
+        1e-3,
+        "plastic strain",
         edgecolors="face",
     )
-    axes[1].add_collection(cells)
-    axes[1].set_aspect("equal")
-    axes[1].autoscale()
-    axes[1].set_title("plastic strain")
-    figure.colorbar(cells, ax=axes[1], shrink=0.6)
-    figure.savefig(folder / "tube.png", dpi=120)
-    plt.close(figure)
-    found.picture = "tube.png"
+    found.draw(figure, folder / "tube.png")
     return found
 
 
@@ -429,7 +424,5 @@ def closed_pylorus(folder: Path, quick: bool) -> Findings:
     axes[0].set(xlabel="t [s]", ylabel="axial pressure at the pylorus [kPa]")
     axes[1].set(xlabel="t [s]", ylabel="part of the bolus beyond the throat")
     axes[1].legend(fontsize=5)
-    figure.savefig(folder / "pylorus.png", dpi=120)
-    plt.close(figure)
-    found.picture = "pylorus.png"
+    found.draw(figure, folder / "pylorus.png")
     return found

@@ -173,9 +173,7 @@ def sliding_block(folder: Path, quick: bool) -> Findings:
         )
     axes[1].set(xlabel="shift [mm]", ylabel="shear force [N]")
     axes[1].legend()
-    figure.savefig(folder / "sliding.png", dpi=120)
-    plt.close(figure)
-    found.picture = "sliding.png"
+    found.draw(figure, folder / "sliding.png")
     found.remarks.append(
         "A ratio that is too low points at the half-filled cells at the ends "
         "of the block: their bolus carries load, but friction fades there."
@@ -262,9 +260,7 @@ def frictional_platens(folder: Path, quick: bool) -> Findings:
         "what sticks keeps the contact small. Up to a strain of 0.1 the order "
         "holds; beyond, it fails by about a per cent."
     )
-    figure.savefig(folder / "platens.png", dpi=120)
-    plt.close(figure)
-    found.picture = "platens.png"
+    found.draw(figure, folder / "platens.png")
     return found
 
 
@@ -440,7 +436,5 @@ def separation(folder: Path, quick: bool) -> Findings:
     axes[1].set(
         xlabel="strain of the walls' distance [-]", ylabel="traction [Pa]"
     )
-    figure.savefig(folder / "separation.png", dpi=120)
-    plt.close(figure)
-    found.picture = "separation.png"
+    found.draw(figure, folder / "separation.png")
     return found

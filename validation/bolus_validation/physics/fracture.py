@@ -5,6 +5,7 @@
 from pathlib import Path
 
 import numpy as np
+from bolus_cases.mapped import draw_cells, write_motion
 from bolus_cases.specimens import (
     box,
     compression,
@@ -19,7 +20,6 @@ from bolus_cases.synthetic import (
 from bolus_results.fields import Case
 from bolus_results.tables import read_table
 from matplotlib import pyplot as plt
-from matplotlib.collections import PolyCollection
 
 from bolus_validation import rheology
 from bolus_validation.studies import Findings, study
@@ -52,23 +52,19 @@ def monitor_damage(case: Path) -> None:
 def paint(axes, case: Case, time: float, name: str, limits, least=0.1) -> None:
     """A field of the cells with alpha > least, in mm."""
     mesh = case.mesh(time)
-    section = mesh.section
-    alpha = case.field(time, "alpha")[section.cells]
-    values = case.field(time, name)[section.cells]
-    cells = PolyCollection(
-        [1e3 * polygon for polygon in section.polygons],
-        array=np.where(alpha > least, values, np.nan),
+    bolus = case.field(time, "alpha") > least
+    draw_cells(
+        axes,
+        mesh,
+        np.where(bolus, case.field(time, name), np.nan),
+        1e-3,
+        f"{name}, t = {time:g} s",
         cmap="magma_r",
         edgecolors="face",
         linewidths=0.1,
+        clim=limits,
     )
-    cells.set_clim(*limits)
-    axes.add_collection(cells)
-    axes.set_aspect("equal")
-    axes.autoscale()
-    axes.set_title(f"{name}, t = {time:g} s", fontsize=8)
     axes.tick_params(labelsize=6)
-    axes.figure.colorbar(cells, ax=axes, shrink=0.7)
 
 
 def onset_time(rate: float, start: float = 0.0) -> float:
@@ -254,17 +250,8 @@ def bar_in_tension(folder: Path, quick: bool) -> Findings:
     large = int((pieces > 0.01 * pieces.sum()).sum())
     found.row("intact fragments", "-", large, 2, 0)
     paint(axes[2], fields, end, "D", (0, 1))
-    figure.savefig(folder / "bar.png", dpi=120)
-    plt.close(figure)
-    found.picture = "bar.png"
+    found.draw(figure, folder / "bar.png")
     return found
-
-
-def write_points(path: Path, points) -> None:
-    """A plain list of vectors, (n, 3), as boundaryData has it."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    rows = "".join(f"({x:.15g} {y:.15g} {z:.15g})\n" for x, y, z in points)
-    path.write_text(f"{len(points)}\n(\n{rows})\n")
 
 
 def shear(case: Path, gamma: float, step: float = 0.05, cells: int = 6):
@@ -286,13 +273,14 @@ def shear(case: Path, gamma: float, step: float = 0.05, cells: int = 6):
     )
     # The sides move in proportion to y; box() has no words for that
     path = case / "0" / "pointDisplacement"
-    for side, x in (("x0", 0.0), ("x1", 0.010)):
-        points = mesh.points[np.isclose(mesh.points[:, 0], x)]
-        data = case / "constant" / "boundaryData" / side
-        write_points(data / "points", points)
-        for time in (0, gamma):
-            moved = np.outer(points[:, 1] * time, (1, 0, 0))
-            write_points(data / f"{time:g}" / "pointDisplacement", moved)
+    for side in ("x0", "x1"):
+        write_motion(
+            case,
+            mesh,
+            side,
+            lambda time, points: np.outer(points[:, 1] * time, (1, 0, 0)),
+            (0, gamma),
+        )
         replace(
             path,
             side + r" \{ type zeroGradient; \}",
@@ -353,9 +341,7 @@ def no_fracture(folder: Path, quick: bool) -> Findings:
             scale=1 / 3,
         )
         paint(axis, case, end, "triaxiality", (-0.5, 0.5))
-    figure.savefig(folder / "unbroken.png", dpi=120)
-    plt.close(figure)
-    found.picture = "unbroken.png"
+    found.draw(figure, folder / "unbroken.png")
     found.remarks.append(
         f"The cylinder was compressed to {run.strain[-1]:.2f}."
     )

@@ -148,9 +148,7 @@ def compare(folder: Path, runs: dict, limit: float | None) -> Findings:
         axis.set(xlabel="time [s]", ylabel=text)
     axes[0].legend(fontsize=8)
     figure.tight_layout()
-    figure.savefig(folder / "curves.png", dpi=110)
-    plt.close(figure)
-    found.picture = "curves.png"
+    found.draw(figure, folder / "curves.png")
     return found
 
 

@@ -239,9 +239,7 @@ def compare(found, folder: Path, make, load, cells, steps) -> None:
     fields = Case(done[cells[-1], middle[0]][1])
     paint(axes[2], fields, max(fields.times), "alpha", (0, 1))
     paint(axes[3], fields, max(fields.times), "D", (0, 1))
-    figure.savefig(folder / "broken.png", dpi=120)
-    plt.close(figure)
-    found.picture = "broken.png"
+    found.draw(figure, folder / "broken.png")
 
 
 # Block between opposed punches, a quarter: half width and height of the block,

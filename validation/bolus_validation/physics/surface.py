@@ -71,7 +71,5 @@ def surface_in_the_mesh(folder: Path, quick: bool) -> Findings:
         ylabel="error of the worst cell's pressure [-]",
     )
     axes.legend()
-    figure.savefig(folder / "surface.png", dpi=120)
-    plt.close(figure)
-    found.picture = "surface.png"
+    found.draw(figure, folder / "surface.png")
     return found
