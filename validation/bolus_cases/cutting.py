@@ -60,7 +60,7 @@ class Parameters:
     roomThrough: float
     ends: int
     startGap: float
-    voidStress: float
+    gasStress: float
     # STL file, and its outline (see tool_surface) at the axis (n, 2)
     toolSurface: Path | None = None
     outline: np.ndarray | None = None
@@ -506,10 +506,10 @@ def write_derived(case: Path, p: Parameters) -> None:
         f"surfaceInterval {0.1 * p.writeTravel / p.speed:.12g};\n"
         # A fifth of the tool's way in diameters, far from it less
         f"strainRate      {0.2 / scale:.12g};\n"
-        # The void resists as little at any speed and size
-        f"voidZeta        {p.voidStress * scale:.12g};\n"
-        f"voidEta         {0.05 * p.voidStress * scale:.12g};\n"
-        f"overfillTime    {0.01 * scale:.12g};\n"
+        # The gas resists as little at any speed and size
+        f"gasZeta        {p.gasStress * scale:.12g};\n"
+        f"gasEta         {0.05 * p.gasStress * scale:.12g};\n"
+        f"overshootTime    {0.02 * scale:.12g};\n"
         f"elasticSlip     {0.02 * p.cellSize:.12g};\n"
         f"modelFactor     {p.factor};\n"
         f"toolOrigin      (0 {p.centre:.12g} 0);\n"

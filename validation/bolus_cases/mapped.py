@@ -62,13 +62,14 @@ def material(
     flow: str,
     youngs: float,
     nu: float = 0.49,
-    void: str = "",
+    gas: str = "",
     damage: str = NOTHING,
 ) -> str:
     """Text of bolusProperties; flow holds the entries of flowStress."""
     return (
         f"rho 1100;\nelasticity {{ E {youngs:.12g}; nu {nu:.12g}; }}\n"
-        f"flowStress {{ {flow} }}\ndamage {{ {damage} }}\nvoid {{ {void} }}\n"
+        f"flowStress {{ {flow} }}\ndamage {{ {damage} }}\n"
+        f"gasCoeffs {{ {gas} }}\n"
     )
 
 

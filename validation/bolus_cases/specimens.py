@@ -66,13 +66,13 @@ def replace(path: Path, pattern: str, by: str) -> None:
 def prepare_compression(
     case: Path,
     material: str = "viscoplastic",
-    void: str = "",
+    gas: str = "",
     solver: str = "",
     **entries,
 ) -> Path:
     """A copy of the tutorial with these entries of caseParameters, meshed.
 
-    void, solver    entries of the sub-dictionaries void of bolusProperties
+    gas, solver    entries of the sub-dictionaries gas of bolusProperties
                     and bolus of fvSolution
     """
     shutil.copytree(
@@ -91,7 +91,7 @@ def prepare_compression(
     write_file(
         case / "constant" / "bolusProperties",
         f'#include "{COMMON}/bolusProperties.{material}"\n'
-        + (f"void {{ {void} }}\n" if void else ""),
+        + (f"gasCoeffs {{ {gas} }}\n" if gas else ""),
     )
     replace(
         case / "system" / "fvSolution",

@@ -71,8 +71,8 @@ _LAYERS = (
     ("plastic", ("plastic",), "#c8b08a"),
     ("friction", ("friction",), "#55a868"),
     ("fracture", ("fracture",), "#c44e52"),
-    ("broken bolus's viscosity", ("debris",), "#dd8452"),
-    ("void", ("void",), "#b9b4ab"),
+    ("broken bolus's viscosity", ("damagedViscosity",), "#dd8452"),
+    ("gas", ("gas",), "#b9b4ab"),
     (
         "time step, transport, outflow",
         ("relaxation", "inertiaLoss", "transport", "outflow"),
@@ -80,7 +80,7 @@ _LAYERS = (
     ),
     (
         "stabilisation",
-        ("hourglass", "overfill"),
+        ("hourglass", "overshoot"),
         "#937860",
     ),
 )

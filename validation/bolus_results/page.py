@@ -137,8 +137,12 @@ def warn(path: Path, results: dict, inputs: dict) -> list[str]:
                     ENERGY_LIMIT,
                     "residual",
                 ),
-                (f"{shares}.void", SHARE_LIMIT, "void"),
-                (f"{shares}.debris", SHARE_LIMIT, "viscosity of broken bolus"),
+                (f"{shares}.gas", SHARE_LIMIT, "gas"),
+                (
+                    f"{shares}.damagedViscosity",
+                    SHARE_LIMIT,
+                    "viscosity of broken bolus",
+                ),
                 (f"{shares}.stabilisation", SHARE_LIMIT, "stabilisation"),
             ):
                 number = find(results, place)

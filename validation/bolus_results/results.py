@@ -69,11 +69,13 @@ def run_numbers(path: Path) -> dict:
         )
         # The solver's running count, kept over restarts
         found["rejectedSteps"] = value(int(steps["rejected"][-1]), "-")
-        if "lagged" in steps.columns:
-            found["laggedSteps"] = value(int(steps["lagged"][-1]), "-")
-        if "turnedLater" in steps.columns:
-            found["turnedLaterSteps"] = value(
-                int(steps["turnedLater"][-1]), "-"
+        if "explicitPressure" in steps.columns:
+            found["explicitPressureSteps"] = value(
+                int(steps["explicitPressure"][-1]), "-"
+            )
+        if "splitRotation" in steps.columns:
+            found["splitRotationSteps"] = value(
+                int(steps["splitRotation"][-1]), "-"
             )
         found["maxCourant"] = value(steps["courant"].max(), "-")
         found["maxMassError"] = value(np.abs(steps["massError"]).max(), "-")
@@ -161,12 +163,12 @@ _COLUMNS = {
     "wallEnergy": None,
 }
 
-# What the energy balance would not have if the void carried nothing and the
+# What the energy balance would not have if the gas carried nothing and the
 # mesh and the time step were infinitely fine: sums of the columns' sizes
 ARTIFICIAL = {
-    "void": ("void",),
-    "debris": ("debris",),
-    "stabilisation": ("hourglass", "overfill"),
+    "gas": ("gas",),
+    "damagedViscosity": ("damagedViscosity",),
+    "stabilisation": ("hourglass", "overshoot"),
     "timeStep": ("relaxation", "inertiaLoss"),
     "transport": ("transport",),
 }

@@ -54,7 +54,7 @@ def state(case: Case, time: float, loaded: float = 0.0) -> State:
         pieces = mesh.fragments(cells, volume)
         large = pieces >= CRUMB * whole
         found["pieces" + label] = value(large.sum(), "-")
-        found["crumbs" + label] = value((~large).sum(), "-")
+        found["smallFragments" + label] = value((~large).sum(), "-")
         if pieces.size:
             found["largestPiece" + label] = value(pieces[0] / whole, "-")
 

@@ -22,8 +22,8 @@ _LINES = """
 simulated | run.simulatedTime | .6g | s
 time steps | run.steps | d |
 rejected | run.rejectedSteps | d |
-friction lagged | run.laggedSteps | d |
-turning lagged | run.turnedLaterSteps | d |
+friction lagged | run.explicitPressureSteps | d |
+turning lagged | run.splitRotationSteps | d |
 Newton iterations | run.newtonIterations | d |
 cells | run.cells | d |
 cores | run.cores | d |
@@ -36,8 +36,8 @@ largest mass error | retainedMass.balanceError.peak | .2g | %
 overfull steps | run.overfullSteps | d |
 spilled | run.spilled | .2g | % of the bolus
 energy residual | energyBalance.relative.final | .2g | % of the work
-taken by the void | energyBalance.shares.void | .2g | % of the work
-by broken bolus's viscosity | energyBalance.shares.debris | .2g | % of the work
+taken by the gas | energyBalance.shares.gas | .2g | % of the work
+by broken bolus | energyBalance.shares.damagedViscosity | .2g | % of the work
 by the stabilisation | energyBalance.shares.stabilisation | .2g | % of the work
 damaged | damagedVolume.fraction.final | .3g | %
 external surface | freeSurface.externalArea.final | .4g | mm2

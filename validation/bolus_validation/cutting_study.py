@@ -120,15 +120,15 @@ def cylinder_fe(folder: Path, quick: bool) -> Findings:
         )
         axis.plot(*theirs[size], "o", ms=3, label=f"CalculiX, {size:g} mm")
     ours = {}
-    for label, n, void in (
+    for label, n, gas in (
         ("10 cells per diameter", 10, 10.0),
         ("20 cells per diameter", 20, 10.0),
-        ("10 cells, void of 1 Pa", 10, 1.0),
+        ("10 cells, gas of 1 Pa", 10, 1.0),
     ):
         case = prepare(
             folder / label.replace(" ", "").replace(",", ""),
             cellSize=5e-3 / n,
-            voidStress=void,
+            gasStress=gas,
             boxCells=n // 5,
             travel=1e-3 * block.travel,
             travelStep=5e-5,
@@ -164,8 +164,8 @@ def cylinder_fe(folder: Path, quick: bool) -> Findings:
     axis.legend()
     found.draw(figure, folder / "force.png")
     found.remarks.append(
-        "At 0.1 mm our force is the higher. Half of that is the void, which "
-        "resists where tool and block close (voidStress 10 Pa in the "
+        "At 0.1 mm our force is the higher. Half of that is the gas, which "
+        "resists where tool and block close (gasStress 10 Pa in the "
         "tutorials). The rest, tried by hand, is not the cells, nor the time "
         "step (a quarter: 1 % less), nor the stiffness of the contact of "
         "CalculiX (a tenth: its force 1 % less); not explained."
@@ -422,15 +422,15 @@ def cylinder_platen(folder: Path, quick: bool) -> Findings:
 @study(
     "cylinder_void",
     "C",
-    "Cylinder at 2.5 mm/s: artificial resistance of the void, void left out",
+    "Cylinder at 2.5 mm/s: artificial resistance of the gas, gas left out",
     "the run of the tutorial; 1 %",
 )
 def cylinder_void(folder: Path, quick: bool) -> Findings:
     found = Findings()
     runs = {"10 Pa": tutorial_run("cylinder2D")}
     for stress in (5, 20):
-        runs[f"{stress} Pa"] = tutorial_run("cylinder2D", voidStress=stress)
-    runs["two layers of void"] = tutorial_run("cylinder2D", voidLayers=2)
+        runs[f"{stress} Pa"] = tutorial_run("cylinder2D", gasStress=stress)
+    runs["two layers of gas"] = tutorial_run("cylinder2D", gasLayers=2)
     compare(found, runs, "10 Pa", (0.1, 0.3, 0.5, 0.7, 0.9), 0.01)
     found.picture = curves(folder, runs)
     return found
@@ -536,7 +536,7 @@ def solid_solver(folder: Path, quick: bool) -> Findings:
             "to 1e-2": {},
             "to 1e-3": {accuracy: 1e-3},
             "to 1e-2, from the left": left,
-            "all void": {"system/fvSolution:bolus.voidLayers": 0},
+            "all gas": {"system/fvSolution:bolus.gasLayers": 0},
         }.items()
     }
     for name, run in runs.items():

@@ -68,8 +68,8 @@ CAUSES = {
     "damage averaged over 1 mm": {"nonlocalLength": 1e-3},
     "damage averaged over 2 mm": {"nonlocalLength": 2e-3},
     "0.1 of strain under tension": {"tensileStrain": 0.1},
-    "broken bolus holds no tension": {BOLUS + "void.cohesion": 0},
-    "broken bolus half as viscous": {BOLUS + "void.etaDamaged": 2.5},
+    "broken bolus holds no tension": {BOLUS + "gasCoeffs.cohesion": 0},
+    "broken bolus half as viscous": {BOLUS + "gasCoeffs.etaDamaged": 2.5},
     "wave by Eq. 14 to the letter": {
         "reading": "tail",
         "closedBetween": "(17.6 27.1)",

@@ -304,7 +304,7 @@ def settings(chosen: dict) -> dict:
         "bolusCentre": f"({chosen['centre'] * 1e-3:.5f} 0 0)",
         "tensileStrain": chosen["tensile"],
         "inertia": chosen["inertia"],
-        BOLUS + "void.cohesion": f"{chosen['cohesion']:.4g}",
+        BOLUS + "gasCoeffs.cohesion": f"{chosen['cohesion']:.4g}",
     }
     if chosen["times"] == "closes 18 s":
         found[MOTILITY + "sphincter.trigger"] = (

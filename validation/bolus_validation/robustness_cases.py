@@ -25,7 +25,8 @@ from bolus_validation.robustness import expand
 
 COMMON = specimens.COMMON
 VOID = (
-    "zeta 20; eta 1; etaDamaged 20; seal 0.4; closing 0.5; delta 2; cohesion 9;"
+    "zeta 20; eta 1; etaDamaged 20; growthThreshold 0.4; closing 0.5; "
+    "delta 2; cohesion 9;"
 )
 # What a stock OpenFOAM reads, and judges as it likes
 STOCK = {
@@ -82,7 +83,7 @@ def compression(folder: Path):
     specimens.prepare_compression(
         folder,
         material="viscoplasticDamage",
-        void=VOID,
+        gas=VOID,
         friction="coulomb",
         strain=0.01,
         unloadStrain=0,

@@ -144,7 +144,11 @@ def register_whole(case: str, size: float, **settings) -> None:
         run = run_numbers(path)
         for name in (
             *("cells", "steps", "rejectedSteps"),
-            *("laggedSteps", "turnedLaterSteps", "newtonIterations"),
+            *(
+                "explicitPressureSteps",
+                "splitRotationSteps",
+                "newtonIterations",
+            ),
         ):
             found.row(name, "-", run[name]["value"])
         # A start that was killed or gave up has left no clock time, but that

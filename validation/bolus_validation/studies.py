@@ -245,8 +245,8 @@ def run_folder(tutorial: str, page: str, ranks: int = 1, **settings) -> Path:
 # -set entries of case D without an end of its hardening
 NO_END = {
     "law": "JLaw",
-    "lagTurningBelow": 0,
-    "lagFrictionBelow": 1,
+    "splitRotationBelow": 0,
+    "explicitPressureBelow": 1,
 }
 
 

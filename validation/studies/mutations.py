@@ -30,7 +30,7 @@ GAS = "src/phases/gas/gas.C"
 FRICTION = "src/contact/wallFriction/wallFriction.C"
 NEWTON = "src/newton/newtonSolver/newtonSolver.C"
 ELIMINATION = "src/mixture/pressureElimination/pressureElimination.H"
-TURNING = "src/coupled/laggedTurning/laggedTurning.C"
+TURNING = "src/coupled/splitRotation/splitRotation.C"
 TANGENT = "src/linear/condensedTangent/condensedTangent.C"
 SPACE = "src/space/nodalSpace/nodalSpace.C"
 HISTORY = "src/transport/historyFlux/historyFlux.C"
@@ -159,7 +159,7 @@ MUTATIONS = (
         "test_scales.py -k any_strength",
     ),
     Mutation(
-        "void of any case at 0.1/s",
+        "gas of any case at 0.1/s",
         "src/rheology/caseScales/caseScales.H",
         "return 0.1 / strainRate_;",
         "return 1;",
@@ -264,7 +264,7 @@ MUTATIONS = (
         "test_solver_contact.py -k lagged_friction",
     ),
     Mutation(
-        "void left out without a look at the other processors",
+        "gas left out without a look at the other processors",
         SPACE,
         "syncTools::syncPointList(mesh_, points, orEqOp<bool>(), false);",
         "",
@@ -292,7 +292,7 @@ MUTATIONS = (
         "test_solver.py -k subdomains_overlap",
     ),
     Mutation(
-        "closing voids extrapolated from where they are",
+        "closing gas extrapolated from where they are",
         "src/coupled/coupledSystem/coupledSystemAssemble.C",
         "J.extrapolate(c, weight_[c] / unknowns_.rate0 * t.excess);",
         "",
@@ -350,7 +350,7 @@ MUTATIONS = (
     Mutation(
         "broken bolus breaks its neighbours",
         "applications/solvers/bolusFoam/bolusFields.C",
-        "strain(soundStrain / max(1 - D, SMALL))",
+        "strain(undamagedStrain / max(1 - D, SMALL))",
         "strain(epsilonPEq)",
         "test_physics_contact.py -k barInTension",
     ),
@@ -477,7 +477,7 @@ MUTATIONS = (
     Mutation(
         "full steps are never tried",
         NEWTON,
-        "mayLeap_ = fullSteps_ > 0;",
+        "mayLeap_ = undampedSteps_ > 0;",
         "mayLeap_ = false;",
         "test_cases.py -k full_steps",
     ),

@@ -75,7 +75,7 @@ def test_what_the_weight_gives_is_stored_or_lost_in_the_bolus(standing):
     assert gives > 0
     others = sum(
         balance[name][-1]
-        for name in ("elastic", "plastic", "relaxation", "void", "hourglass")
+        for name in ("elastic", "plastic", "relaxation", "gas", "hourglass")
     )
     assert others == pytest.approx(gives, rel=1e-2)
 

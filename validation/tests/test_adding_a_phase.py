@@ -100,7 +100,7 @@ def test_the_energy_balance_closes_with_it(tmp_path):
     force(prepare(tmp_path, thick(2e4), filled=0.5))
     balance = read_table(tmp_path, "energyBalance")
     assert abs(balance["relative"][-1]) < 1e-6
-    assert balance["void"][-1] > 0.2 * balance["work"][-1]
+    assert balance["gas"][-1] > 0.2 * balance["work"][-1]
 
 
 def test_an_unknown_phase_is_one_clear_error(tmp_path):

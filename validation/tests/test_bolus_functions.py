@@ -54,7 +54,7 @@ def spheres(tmp_path):
 def test_three_spheres_are_two_pieces_and_a_crumb(spheres, ranks):
     case, _ = spheres
     row = post_process(case, "fragments", "alpha mass", np=ranks)
-    assert (row["pieces"], row["crumbs"]) == (2, 1)
+    assert (row["pieces"], row["smallFragments"]) == (2, 1)
     for i, (_, radius) in enumerate(SPHERES[:2], 1):
         # Cells with alpha > 0.5 hold all but the rim's thin ones
         mass = RHO * 4 / 3 * np.pi * radius**3
@@ -88,12 +88,12 @@ def test_jets_are_those_of_the_bolus_on_their_side(spheres):
     case, mesh = spheres
     x = mesh.cell_centres[:, 0]
     # 1 cell of the first sphere flows back at 0.5 m/s, all of it at 0.02; the
-    # second sphere goes out at 0.03; the void is faster
+    # second sphere goes out at 0.03; the gas is faster
     u = np.where(x < 0.024, -0.02, 0.03)
-    void = np.zeros_like(x, dtype=bool)
+    gas = np.zeros_like(x, dtype=bool)
     for centre, radius in SPHERES:
-        void |= np.hypot(x - centre, mesh.radii) < 1.2 * radius
-    u[~void] = 9
+        gas |= np.hypot(x - centre, mesh.radii) < 1.2 * radius
+    u[~gas] = 9
     u[np.argmin(np.hypot(x - SPHERES[0][0], mesh.radii))] = -0.5
     velocity = np.outer(u, (1, 0, 0))
     write_field(case, mesh, 0, "U", velocity)

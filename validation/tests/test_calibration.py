@@ -508,7 +508,7 @@ def test_cases_find_laws_by_their_names(tmp_path, installed):
             shutil.copytree(ROOT / "tutorials" / case / part, copy / part)
         # Made by the tutorial's Allrun
         write_file(
-            copy / "system" / "derivedParameters", "voidZeta 1; voidEta 1;"
+            copy / "system" / "derivedParameters", "gasZeta 1; gasEta 1;"
         )
         for law, modulus in ((name, 12345), ("viscoplastic", 1e5)):
             replace(copy / file, r"\nlaw\s+\w+;", f"\nlaw {law};")

@@ -111,8 +111,8 @@ def test_mass_and_energy_are_balanced_through_the_throat(cases, letter):
 
 @pytest.fixture(scope="module")
 def first_wave(tmp_path_factory):
-    """first_wave(rate, fullSteps, lagTurningBelow): rejected steps and work [J]
-    of case D without an end of hardening on 2 mm until the first wave
+    """first_wave(rate, undampedSteps, splitRotationBelow): rejected steps and
+    work [J] of case D without an end of hardening on 2 mm until the first wave
     leaves."""
 
     @cache
@@ -121,10 +121,10 @@ def first_wave(tmp_path_factory):
         run_case(
             "gastric/caseD",
             *("-set", "resolution=2e-3", "-set", "pylorusRefinement=4"),
-            *("-set", "endTime=17", "-set", f"fullSteps={full}"),
+            *("-set", "endTime=17", "-set", f"undampedSteps={full}"),
             *("-set", f"{OBJECTIVE_RATE}={rate}"),
-            *("-set", "law=JLaw", "-set", "lagFrictionBelow=1"),
-            *("-set", f"lagTurningBelow={later}"),
+            *("-set", "law=JLaw", "-set", "explicitPressureBelow=1"),
+            *("-set", f"splitRotationBelow={later}"),
             *("-out", case),
         )
         return (

@@ -108,7 +108,7 @@ def test_friction_resists_and_none_means_none(pressed):
 
 
 def test_shortcuts_to_the_pressure_save_iterations_and_keep_the_force(folder):
-    # closingPressure and eliminateRoom. Found 194 iterations without, 161 and
+    # closingPressure and eliminateAbove. Found 194 iterations without, 161 and
     # 166 with one of them, 126 with both, and the same force to 0.04 %; on the
     # tutorial's mesh, to 9 mm, 756 and 419
     iterations, forces = [], []
@@ -118,7 +118,7 @@ def test_shortcuts_to_the_pressure_save_iterations_and_keep_the_force(folder):
         )
         for entry, value in (
             ("closingPressure", pressure),
-            ("eliminateRoom", room),
+            ("eliminateAbove", room),
         ):
             replace(
                 case / "system" / "fvSolution",
@@ -135,7 +135,7 @@ def test_shortcuts_to_the_pressure_save_iterations_and_keep_the_force(folder):
 
 
 def test_wisps_that_hold_newtons_method_are_eliminated(folder):
-    # Steps up to 1.5 mm, in which pressures of cells with eliminateRoom alone
+    # Steps up to 1.5 mm, in which pressures of cells with eliminateAbove alone
     # leave Newton's method crawling or stuck. Found 163 iterations; 236 without
     # those of the cells with less, 209 with them where the line search fails
     # alone. From the start on they change the way, not the answer: the same
@@ -149,7 +149,7 @@ def test_wisps_that_hold_newtons_method_are_eliminated(folder):
         )
         replace(
             case / "system" / "fvSolution",
-            r"\n *eliminateRoom\s[^;]*;",
+            r"\n *eliminateAbove\s[^;]*;",
             f"\neliminateRoom {room};",
         )
         with open(case / "system" / "controlDict", "a") as control:
@@ -213,7 +213,7 @@ def test_a_tool_that_leaves_the_bolus_again_carries_no_force(folder):
     solve(case)
     table = force(case)
     assert table["travel"][-1] == pytest.approx(-0.002, abs=5e-6)
-    # What is left is crumbs and the void's viscosity: found 0.7 % of the
+    # What is left is crumbs and the gas's viscosity: found 0.7 % of the
     # largest force at 1 mm above the block, 0.4 % at 2 mm; at ten cells per
     # diameter 0.3 % at 1 mm
     away = table["travel"] < -1e-3
@@ -243,15 +243,15 @@ def test_two_ranks_give_the_serial_answer(folder):
 
 @pytest.fixture(scope="session")
 def near_only(folder):
-    """The cylinder of `pressed`, with one layer of void solved, on one rank
+    """The cylinder of `pressed`, with one layer of gas solved, on one rank
     and on two."""
     cases = []
     for n in (1, 2):
         case = prepare(folder / f"near{n}", **SHORT, friction="coulomb")
         replace(
             case / "system" / "fvSolution",
-            r"voidLayers\s+0;",
-            "voidLayers 1;",
+            r"gasLayers\s+0;",
+            "gasLayers 1;",
         )
         if n == 1:
             solve(case)

@@ -152,7 +152,7 @@ def test_standard_run_conserves_mass_and_bounds_alpha(standard):
 def test_wall_presses_after_7_s_and_not_before_6_s(standard):
     force = read_table(standard, "contactForce")
     peak = force["total"].max()
-    # The wave's foot reaches the bolus at 6.7 s. Before, the void, which is
+    # The wave's foot reaches the bolus at 6.7 s. Before, the gas, which is
     # viscous, transmits up to 1 % of the force at 8 s, which
     # is itself small against that of the later waves
     assert peak > 1

@@ -157,15 +157,15 @@ def test_pieces_touch_by_faces_only_and_are_sorted_by_size(tmp_path):
     assert mesh.fragments(np.zeros(16, bool), mesh.cell_volumes).size == 0
 
 
-def broken_bolus(case, time=1, gap="void"):
-    """A bar of bolus in a wedge, broken in the middle by void or damage."""
+def broken_bolus(case, time=1, gap="gas"):
+    """A bar of bolus in a wedge, broken in the middle by gas or damage."""
     mesh = wedge_mesh(case, 0.04, 0.02, 40, 20)
     x = mesh.cell_centres[:, 0]
     r = mesh.radii
     alpha = ((abs(x - 0.02) < 0.015) & (r < 0.01)).astype(float)
     middle = abs(x - 0.02) < 0.002
     damage = np.zeros(mesh.n_cells)
-    if gap == "void":
+    if gap == "gas":
         alpha[middle] = 0.3
     elif gap == "damage":
         damage[middle] = 1
@@ -175,7 +175,7 @@ def broken_bolus(case, time=1, gap="void"):
     write_field(case, mesh, time, "D", damage)
     velocity = np.zeros((mesh.n_cells, 3))
     velocity[alpha > 0.5, 0] = np.where(x[alpha > 0.5] < 0.02, -0.02, 0.01)
-    velocity[alpha < 0.5, 0] = 9  # of the void: does not count
+    velocity[alpha < 0.5, 0] = 9  # of the gas: does not count
     write_field(case, mesh, time, "U", velocity)
     sigma = np.where(r < 0.01, 5000.0, 0)
     eta = np.where(x > 0.02, 1.5, -4.0)
@@ -191,7 +191,7 @@ def broken_bolus(case, time=1, gap="void"):
 
 @pytest.mark.parametrize(
     ("gap", "whole", "intact"),
-    [("none", 1, 1), ("damage", 1, 2), ("void", 2, 2)],
+    [("none", 1, 1), ("damage", 1, 2), ("gas", 2, 2)],
 )
 def test_fragments_are_told_apart_by_void_and_by_damage(
     tmp_path, gap, whole, intact
@@ -199,7 +199,7 @@ def test_fragments_are_told_apart_by_void_and_by_damage(
     broken_bolus(tmp_path, gap=gap)
     bolus = state(Case(tmp_path), 1.0)
     assert (bolus["pieces"], bolus["piecesIntact"]) == (whole, intact)
-    assert (bolus["crumbs"], bolus["crumbsIntact"]) == (1, 1)
+    assert (bolus["smallFragments"], bolus["smallFragmentsIntact"]) == (1, 1)
 
 
 def test_state_looks_at_bolus_only(tmp_path):
@@ -509,7 +509,7 @@ def test_comparison_goes_between_the_markers_and_nowhere_else(tmp_path):
 
 
 def test_contours_show_the_bolus_mirrored_and_nothing_elsewhere(tmp_path):
-    """Colour above the axis has its mirror image below; void has none."""
+    """Colour above the axis has its mirror image below; gas has none."""
     broken_bolus(tmp_path)
     case = Case(tmp_path)
     target = tmp_path / "eps.png"
@@ -529,7 +529,7 @@ def test_contours_show_the_bolus_mirrored_and_nothing_elsewhere(tmp_path):
     above = green[rows[0] : middle].sum()
     below = green[middle + 1 : rows[-1] + 1].sum()
     assert below == pytest.approx(above, rel=0.03)
-    # Two pieces: a gap of void between coloured columns
+    # Two pieces: a gap of gas between coloured columns
     columns = green[middle - 20 : middle + 20].any(axis=0)
     edges = np.flatnonzero(np.diff(columns.astype(int)))
     assert edges.size == 4

@@ -195,7 +195,7 @@ def test_a_start_with_more_or_less_than_a_full_cell_is_refused(case, alpha):
     (case / "0" / "alpha").write_text(text[:begin] + str(alpha) + text[end:])
     said = message(run(case, "bolusFoam", ok=False))
     assert f"{alpha:g}" in said
-    assert "valid are 0 (void) to 1 (bolus)" in said
+    assert "valid are 0 (gas) to 1 (bolus)" in said
 
 
 @pytest.mark.parametrize(

@@ -96,7 +96,8 @@ def test_what_is_made_for_one_food_follows_another(oatcake, tmp_path):
     compression(case, strength=0.1)
     path = case / "constant" / "bolusProperties"
     path.write_text(
-        path.read_text() + "void { madeFor { stress 9600; strainRate 0.1; } "
+        path.read_text()
+        + "gasCoeffs { madeFor { stress 9600; strainRate 0.1; } "
         "zeta 20; eta 1; etaDamaged 20; delta 2; }\n"
     )
     for time in case.glob("1*"):

@@ -329,7 +329,7 @@ def test_stress_turns_within_equilibrium_or_after_it(folder, later):
 
     # Told and counted
     steps = read_table(case, "solver", "steps")
-    assert steps["turnedLater"][-1] == (steps.time.size if later else 0)
+    assert steps["splitRotation"][-1] == (steps.time.size if later else 0)
     told = "turns after equilibrium" in (case / "log.bolusFoam").read_text()
     assert told == later
 

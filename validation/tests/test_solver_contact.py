@@ -155,14 +155,14 @@ def test_sliding_block_feels_mu_times_the_normal_force(folder, mu, shifted):
 def test_lagged_friction_is_told_and_has_the_pressure_of_the_start(folder):
     # So few iterations that Newton's method fails: friction is then lagged.
     # After the first steps the pressure hardly changes within one
-    case = folder / "lagged"
+    case = folder / "explicitPressure"
     lower, upper = sliding(
-        case, 0.3, "upper", "maxIterations 3; lagFrictionBelow 1;"
+        case, 0.3, "upper", "maxIterations 3; explicitPressureBelow 1;"
     )
     steps = read_table(case, "solver", "steps")
-    assert steps["lagged"][-1] > 10
+    assert steps["explicitPressure"][-1] > 10
     log = (case / "log.bolusFoam").read_text()
-    assert log.count("of this kind)") == steps["lagged"][-1]
+    assert log.count("of this kind)") == steps["explicitPressure"][-1]
     late = lower.time > 0.6
     ratio = lower["axial"][late] / lower["normal"][late]
     assert ratio == pytest.approx(0.3, rel=0.01)
@@ -172,7 +172,7 @@ def test_lagged_friction_is_told_and_has_the_pressure_of_the_start(folder):
 def rows_turned_later(case) -> list[int]:
     """Steps in each row of such steps, but one that the run's end cuts."""
     steps = read_table(case, "solver", "steps")
-    turned = np.diff(steps["turnedLater"], prepend=0) > 0
+    turned = np.diff(steps["splitRotation"], prepend=0) > 0
     assert 10 <= turned.sum() < turned.size
     begins = np.flatnonzero(np.diff(turned.astype(int), prepend=0) == 1)
     ends = np.flatnonzero(np.diff(turned.astype(int)) == -1)
@@ -183,7 +183,7 @@ def test_a_step_that_fails_and_nine_more_turn_the_stress_later(folder):
     # So few iterations that Newton's method fails now and then
     case = folder / "turned-later"
     lower, upper = sliding(
-        case, 0.3, "upper", "maxIterations 4; lagTurningBelow 1;"
+        case, 0.3, "upper", "maxIterations 4; splitRotationBelow 1;"
     )
     # Several tens where the next step fails too
     assert all(row % 10 == 0 for row in rows_turned_later(case))
@@ -198,7 +198,7 @@ def test_more_steps_turn_the_stress_later_where_one_fails_again(folder):
         case,
         0.3,
         "upper",
-        "maxIterations 3; lagTurningBelow 1; lagTurningSteps 20;",
+        "maxIterations 3; splitRotationBelow 1; splitRotationSteps 20;",
     )
     rows = rows_turned_later(case)
     assert all(row % 20 == 10 for row in rows)
@@ -208,10 +208,10 @@ def test_more_steps_turn_the_stress_later_where_one_fails_again(folder):
 
 def test_friction_is_not_lagged_in_longer_steps(folder):
     case = folder / "not-lagged"
-    sliding(case, 0.3, "upper", "maxIterations 4; lagFrictionBelow 1e-5;")
+    sliding(case, 0.3, "upper", "maxIterations 4; explicitPressureBelow 1e-5;")
     steps = read_table(case, "solver", "steps")
     assert steps["rejected"][-1] > 0
-    assert steps["lagged"][-1] == 0
+    assert steps["explicitPressure"][-1] == 0
 
 
 def test_without_friction_sliding_costs_nothing(folder):
@@ -227,11 +227,11 @@ def test_without_friction_sliding_costs_nothing(folder):
 def retracted(request, folder):
     """Compression to 0.5, then the platen goes back by a strain of 0.2.
 
-    With the defaults, and with a void of a fifth of the viscosity. Its drag
+    With the defaults, and with a gas of a fifth of the viscosity. Its drag
     (26 Pa) is below the default of partingTension (50 Pa), at which rim cells
     let go and hold on by turns (1.8 % of the yield force): hence that, too.
     """
-    thin = {"void": "zeta 20;", "solver": "partingTension 0.1;"}
+    thin = {"gas": "zeta 20;", "solver": "partingTension 0.1;"}
     case = compression(
         folder / f"retracted-{request.param}",
         nAxial=20,

@@ -72,13 +72,13 @@ def test_a_damaged_bar_carries_pressure_in_compression(bars):
 
 
 def test_a_damaged_bar_carries_no_force_in_tension(bars):
-    # Tension: the void's viscosity of 20 Pa s at 0.01/s is 0.2 Pa; 5 Pa is
+    # Tension: the gas's viscosity of 20 Pa s at 0.01/s is 0.2 Pa; 5 Pa is
     # 3e-4 of what the sound bar carries
     time, traction = bars[True]
     apart = time > 2.2
     assert np.min(traction[apart]) > -5
     # A rest of pressure: the corner between open and closed is rounded by
-    # delta = 2 Pa, so that a void grows at 0.01/s under delta^2/(4 zeta 0.01/s)
+    # delta = 2 Pa, so that a gas grows at 0.01/s under delta^2/(4 zeta 0.01/s)
     # = 5 Pa, which it approaches from above; found 31 Pa at first, 0.2 % of the
     # pressure before
     assert np.max(traction[apart]) < 0.003 * np.max(traction)
@@ -116,7 +116,7 @@ def test_a_bar_in_tension_breaks_at_the_plastic_strain_of_onset(torn):
 
 
 def test_the_broken_bar_carries_next_to_nothing(torn):
-    # 1 % of the flow stress: the void in the damaged material flows at
+    # 1 % of the flow stress: the gas in the damaged material flows at
     # 20 Pa s times 0.1/s
     after = -torn.strain > 0.37
     assert after.sum() > 5

@@ -79,11 +79,11 @@ BAD = {
         "\nnu 0.49; poisson 0.3;",
         ["poisson", "valid entries", "nu"],
     ),
-    "half a layer of void": (
+    "half a layer of gas": (
         "system/fvSolution",
         r"bolus \{\}",
-        "bolus { voidLayers 2.5; }",
-        ["Entry 'voidLayers'", "2.5", "whole number"],
+        "bolus { gasLayers 2.5; }",
+        ["Entry 'gasLayers'", "2.5", "whole number"],
     ),
     "a linear solver that need not solve": (
         "system/fvSolution",
@@ -182,10 +182,10 @@ BAD = {
         "transport { maxCourant 0; }",
         ["maxCourant", "0", "> 0"],
     ),
-    "void": (
+    "gas": (
         "constant/bolusProperties",
         r"\nrho\s",
-        "\nvoid { zeta -1; }\nrho ",
+        "\ngasCoeffs { zeta -1; }\nrho ",
         ["zeta", "-1", "> 0"],
     ),
     "misspelt entry of the solver": (
@@ -194,10 +194,10 @@ BAD = {
         "bolus { tolerence 1e-8; }",
         ["tolerence", "tolerance"],
     ),
-    "misspelt entry of the void": (
+    "misspelt entry of the gas": (
         "constant/bolusProperties",
         r"\nrho\s",
-        "\nvoid { zetta 10; }\nrho ",
+        "\ngasCoeffs { zetta 10; }\nrho ",
         ["zetta", "zeta"],
     ),
     "misspelt entry of the wall": (
@@ -210,7 +210,7 @@ BAD = {
         "0/alpha",
         r"(?s)internalField.*?\nboundary",
         "internalField uniform 2;\nboundary",
-        ["alpha", "2", "0 (void) to 1 (bolus)"],
+        ["alpha", "2", "0 (gas) to 1 (bolus)"],
     ),
     "no bolus": (
         "0/alpha",

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 the bolusFoam developers
-"""What the void does in broken bolus."""
+"""What the gas does in broken bolus."""
 
 import pytest
 from bolus_cases.specimens import GRIPPING, box, ramp, solve
@@ -32,7 +32,7 @@ def pull(case, cohesion: float) -> float:
         damaged=True,
     )
     with open(case / "constant" / "bolusProperties", "a") as file:
-        file.write(f"void {{ cohesion {cohesion}; etaDamaged 1e-3; }}\n")
+        file.write(f"gasCoeffs {{ cohesion {cohesion}; etaDamaged 1e-3; }}\n")
     solve(case)
     return abs(read_table(case, "forceX1", "contactForce")["axial"][-1]) / AREA
 

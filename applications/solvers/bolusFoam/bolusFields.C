@@ -90,7 +90,7 @@ Foam::scalar Foam::bolusFields::damage(const scalar thinnest)
 {
     if (!law_.damage().active()) return 0;
 
-    scalarField strain(soundStrain / max(1 - D, SMALL));
+    scalarField strain(undamagedStrain / max(1 - D, SMALL));
     if (average_.valid())
     {
         const scalarField sound(mass * max(1 - D, scalar(0)));
@@ -107,12 +107,12 @@ Foam::scalar Foam::bolusFields::damage(const scalar thinnest)
         if (q < SMALL || !law_.damage().onset(strain[c], tensile, -p[c] / q))
             continue;
         D[c] = 1;
-        soundStrain[c] = 0;
+        undamagedStrain[c] = 0;
         tensileStrain[c] = 0;
         volume += mass[c] * mesh_.V()[c];
     }
     D.correctBoundaryConditions();
-    soundStrain.correctBoundaryConditions();
+    undamagedStrain.correctBoundaryConditions();
     tensileStrain.correctBoundaryConditions();
     reduce(volume, sumOp<scalar>());
     return volume;

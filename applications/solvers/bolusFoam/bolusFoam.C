@@ -29,7 +29,7 @@ Usage
 #include "profiling.H"
 #include "bolusFields.H"
 #include "carriedFields.H"
-#include "energyBooks.H"
+#include "energyLedger.H"
 #include "historyTransport.H"
 #include "meshCheck.H"
 #include "progress.H"
@@ -161,7 +161,7 @@ int main(int argc, char* argv[])
         mesh.solutionDict().subOrEmptyDict("transport")
     );
     stepControl control(runTime);
-    energyBooks energy(runTime, fields, law, system);
+    energyLedger energy(runTime, fields, law, system);
     progress report(runTime, fields, control, energy);
 
     SHA1Digest numerics;
@@ -238,7 +238,7 @@ int main(int argc, char* argv[])
             }
 
             // A cell cannot hold more than it has room for: the step was too
-            // long for the void that it had to close. Where two shorter ones
+            // long for the gas that it had to close. Where two shorter ones
             // do not help, the excess is worked off in the steps to come
             done = moved.alphaMax <= max(transport.maxAlpha(), fullest)
                 || overfull == 2 || !control.retry();

@@ -10,7 +10,7 @@ Foam::progress::progress(
     const Time& time,
     const bolusFields& fields,
     const stepControl& control,
-    const energyBooks& energy
+    const energyLedger& energy
 ) :
     time_(time),
     fields_(fields),
@@ -29,7 +29,7 @@ Foam::progress::progress(
     initial_(books_.lookupOrDefault<scalar>("initial", fields.totalMass())),
     emptied_(books_.lookupOrDefault<scalar>("emptied", 0)),
     overfull_(books_.lookupOrDefault<label>("overfull", 0)),
-    lagged_(books_.lookupOrDefault<label>("lagged", 0)),
+    lagged_(books_.lookupOrDefault<label>("explicitPressure", 0)),
     turned_(books_.lookupOrDefault<label>("turned", 0)),
     turning_(false),
     spilled_(books_.lookupOrDefault<scalar>("spilled", 0)),
@@ -61,7 +61,7 @@ Foam::progress::progress(
         file_.reset(new OFstream(dir / "steps.dat"));
         file_() << "# time [s]" << tab << "deltaT [s]" << tab
                 << "NewtonIterations [-]" << tab << "rejected [-]" << tab
-                << "lagged [-]" << tab << "turnedLater [-]" << tab
+                << "explicitPressure [-]" << tab << "splitRotation [-]" << tab
                 << "courant [-]" << tab << "subSteps [-]" << tab
                 << "slowSubSteps [-]" << tab << "massError [-]" << tab
                 << "alphaMin [-]" << tab << "alphaMax [-]" << tab
@@ -96,15 +96,15 @@ void Foam::progress::step(
              << endl;
     }
 
-    if (solved.frictionLagged)
+    if (solved.explicitPressure)
     {
-        books_.set("lagged", ++lagged_);
+        books_.set("explicitPressure", ++lagged_);
         Info << "t " << time_.value() << " s, dt " << time_.deltaTValue()
              << " s: friction with the contact pressure of the step's start"
              << " (step " << lagged_ << " of this kind)" << endl;
     }
 
-    if (solved.turningLagged)
+    if (solved.rotationSplit)
     {
         books_.set("turned", ++turned_);
         if (!turning_)
@@ -115,7 +115,7 @@ void Foam::progress::step(
                  << endl;
         }
     }
-    turning_ = solved.turningLagged;
+    turning_ = solved.rotationSplit;
 
     massError_ = (fields_.totalMass() + emptied_ - initial_) / initial_;
     const scalar low = gMin(fields_.alpha.primitiveField());

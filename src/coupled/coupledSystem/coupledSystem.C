@@ -20,11 +20,11 @@ void Foam::coupledSystem::freeze()
         );
     }
 
-    solved_ = voidLayers_ == 0;
-    if (voidLayers_ > 0)
+    solved_ = gasLayers_ == 0;
+    if (gasLayers_ > 0)
     {
         forAll(solved_, c) solved_[c] = mixture.alphaEff(c) > 0;
-        for (label layer = 0; layer < voidLayers_; ++layer)
+        for (label layer = 0; layer < gasLayers_; ++layer)
         {
             space_.grow(solved_);
         }
@@ -62,8 +62,8 @@ Foam::coupledSystem::coupledSystem(
 ) :
     law_(law),
     state_(state),
-    lagFrictionBelow_(read.number(
-        "lagFrictionBelow",
+    explicitPressureBelow_(read.number(
+        "explicitPressureBelow",
         "longest step whose friction may be lagged [s]",
         entryReader::nonNegative,
         1e-3 * scales.time()
@@ -74,8 +74,8 @@ Foam::coupledSystem::coupledSystem(
         {0, true, 1, true},
         0.1
     )),
-    voidLayers_(read.wholeNumber(
-        "voidLayers",
+    gasLayers_(read.wholeNumber(
+        "gasLayers",
         "of cells around the bolus",
         {0, true, 1e6, true},
         0
@@ -158,13 +158,14 @@ const Foam::coupledSystem::report& Foam::coupledSystem::solve(
     // Where the threshold of a face falls faster than its load as it begins to
     // slip, there is no equilibrium to be found: the thing snaps. A threshold
     // that waits for the next step leaves one
-    if (!converged && cells_.friction().rubs() && deltaT <= lagFrictionBelow_)
+    if (!converged && cells_.friction().rubs()
+        && deltaT <= explicitPressureBelow_)
     {
         cells_.friction().lag(true);
         converged = attempt();
     }
-    report_.frictionLagged = cells_.friction().lagged();
-    report_.turningLagged = turning_.now();
+    report_.explicitPressure = cells_.friction().lagged();
+    report_.rotationSplit = turning_.now();
     report_.converged = converged;
     report_.reason = newton_.reason();
 

@@ -40,7 +40,7 @@ void Foam::coupledSystem::acceptCell(
     state_.deviator[c] = turning_.now() ? mixture.turned(c, r) : r.r.s;
     state_.theta[c] = r.r.theta;
     const scalar strain = (1 - state_.D[c]) * (r.r.epsP - state_.epsilonPEq[c]);
-    state_.soundStrain[c] += strain;
+    state_.undamagedStrain[c] += strain;
     const scalar q = elastoViscoPlastic::sigmaEq(r.r.s);
     if (q > SMALL && law_.damage().tension(-r.p / q))
     {

@@ -27,12 +27,12 @@ Foam::string Foam::functionObjects::energyBalance::title() const
 
 const Foam::dictionary& Foam::functionObjects::energyBalance::books() const
 {
-    const IOdictionary* found = time_.cfindObject<IOdictionary>("energyBooks");
+    const IOdictionary* found = time_.cfindObject<IOdictionary>("energyLedger");
     if (!found)
     {
         // One of input: postProcess goes on after others
         FatalIOErrorInFunction(time_.controlDict())
-            << "function object " << name() << " needs the energyBooks that"
+            << "function object " << name() << " needs the energyLedger that"
             << " bolusFoam keeps; no other solver has them"
             << exit(FatalIOError);
     }

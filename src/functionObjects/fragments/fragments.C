@@ -32,7 +32,9 @@ Foam::string Foam::functionObjects::fragments::title() const
 
 Foam::stringList Foam::functionObjects::fragments::heads() const
 {
-    stringList found({"pieces [-]", "crumbs [-]", "crumbMass [kg]"});
+    stringList found(
+        {"pieces [-]", "smallFragments [-]", "smallFragmentMass [kg]"}
+    );
     for (label i = 1; i <= largest_; ++i)
     {
         found.append("mass" + Foam::name(i) + " [kg]");

@@ -47,10 +47,12 @@ Foam::bolusState::bolusState(const fvMesh& mesh, const scalar bulkModulus) :
     epsilonPEq(history
             .cells<scalar>("epsilonPEq", dimless, 0, historyVariable::CARRIED)),
     D(history.cells<scalar>("D", dimless, 0, historyVariable::DAMAGE)),
-    soundStrain(
-        history
-            .cells<scalar>("soundStrain", dimless, 0, historyVariable::CARRIED)
-    ),
+    undamagedStrain(history.cells<scalar>(
+        "undamagedStrain",
+        dimless,
+        0,
+        historyVariable::CARRIED
+    )),
     tensileStrain(history.cells<scalar>(
         "tensileStrain",
         dimless,
@@ -68,7 +70,7 @@ Foam::bolusState::bolusState(const fvMesh& mesh, const scalar bulkModulus) :
     // overfull, people may not
     if (!history["mass"].found())
     {
-        requireWithin(alpha, 1, "0 (void) to 1 (bolus)");
+        requireWithin(alpha, 1, "0 (gas) to 1 (bolus)");
         requireWithin(D, 1, "0 (sound) to 1 (damaged)");
         requireWithin(epsilonPEq, GREAT, "numbers >= 0");
         requireWithin(tensileStrain, GREAT, "numbers >= 0");
@@ -77,8 +79,9 @@ Foam::bolusState::bolusState(const fvMesh& mesh, const scalar bulkModulus) :
     }
     mass.correctBoundaryConditions();
 
-    if (!history["soundStrain"].found()) soundStrain = (1 - D) * epsilonPEq;
-    soundStrain.correctBoundaryConditions();
+    if (!history["undamagedStrain"].found())
+        undamagedStrain = (1 - D) * epsilonPEq;
+    undamagedStrain.correctBoundaryConditions();
 }
 
 // ************************************************************************* //

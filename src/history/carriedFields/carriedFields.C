@@ -39,12 +39,10 @@ Foam::carriedFields::carriedFields(
 
     // Misspelt coefficients would otherwise be the defaults, in silence
     wordList chosen(names);
-    for (const word& others : {word("phases"), word("forces")})
-    {
-        chosen.append(
-            bolusDict.lookupOrDefault<wordList>(others, wordList())
-        );
-    }
+    chosen.append(
+        bolusDict.lookupOrDefault<wordList>("phases", {"bolus", "gas"})
+    );
+    chosen.append(bolusDict.lookupOrDefault<wordList>("forces", wordList()));
     for (const entry& e : bolusDict)
     {
         const word& key = e.keyword();

@@ -367,6 +367,31 @@ void Foam::entryReader::refuse(const word& key, const string& valid) const
 }
 
 
+namespace Foam
+{
+
+//- Entries that had another name once, and what they are called
+static const HashTable<word>& renamedEntries()
+{
+    static const HashTable<word> names(
+        {{"fullSteps", "undampedSteps"},
+            {"lagFrictionBelow", "explicitPressureBelow"},
+            {"lagTurningBelow", "splitRotationBelow"},
+            {"lagTurningSteps", "splitRotationSteps"},
+            {"eliminateRoom", "eliminateAbove"},
+            {"overfillTime", "overshootTime"},
+            {"leastRoom", "leastAvailable"},
+            {"voidLayers", "gasLayers"},
+            {"squeeze", "overshootTolerance"},
+            {"memoryAbove", "historyAbove"},
+            {"seal", "growthThreshold"}}
+    );
+    return names;
+}
+
+} // End namespace Foam
+
+
 void Foam::entryReader::rejectOthers(
     const wordHashSet& others,
     const string& whose

@@ -81,15 +81,15 @@ Foam::laminate::laminate(
     space_(space),
     interface_(interface),
     typicalRate_(scales.strainRate()),
-    overfillTime_(read.number(
-        "overfillTime",
+    overshootTime_(read.number(
+        "overshootTime",
         "in which alpha > 1 expands [s]",
         entryReader::positive,
-        0.02 * scales.time()
+        0.04 * scales.time()
     )),
-    leastRoom_(read.number(
-        "leastRoom",
-        "part of a void that may close [-]",
+    leastAvailable_(read.number(
+        "leastAvailable",
+        "part of a gas that may close [-]",
         {0, true, 1, true},
         0.05
     )),
@@ -102,7 +102,7 @@ Foam::laminate::laminate(
     deltaT_(1),
     turnLater_(false),
     alphaEff_(space.mesh().nCells(), Zero),
-    overfill_(space.mesh().nCells(), Zero),
+    overshoot_(space.mesh().nCells(), Zero),
     pOld_(space.mesh().nCells(), Zero),
     damaged_(space.mesh().nCells(), false)
 {}
@@ -124,12 +124,13 @@ void Foam::laminate::start(const scalar deltaT)
         if (a < emptyBelow_) a = 0;
         alphaEff_[c] = a;
         damaged_[c] = state_.D[c] > 0.5;
-        overfill_[c] = 0.5 * max(alpha[c] - 1, scalar(0)) / overfillTime_;
+        overshoot_[c] = max(alpha[c] - 1, scalar(0)) / overshootTime_;
 
         // What the step may close: less what the last velocity would fill
         surroundingPhase::cellStart& cell = cells[c];
         cell.available =
-            max(1 - a - in[c] * deltaT_ / space_.V()[c], leastRoom_ * (1 - a));
+            max(1 - a - in[c] * deltaT_ / space_.V()[c],
+                leastAvailable_ * (1 - a));
         cell.alpha = alpha[c];
         cell.alphaEff = a;
         cell.sharpness = interface_.sharpness()[c];
@@ -153,8 +154,8 @@ void Foam::laminate::evaluate(
     const scalar expansion = -(p - pOld_[c]) / (K() * deltaT_);
     r.gradU = gradU;
     r.p = p;
-    r.growth = dilation - a * expansion - overfill_[c];
-    r.apart = dilation - expansion - overfill_[c];
+    r.growth = dilation - a * expansion - overshoot_[c];
+    r.apart = dilation - expansion - overshoot_[c];
 
     if (a > SMALL)
     {

@@ -22,9 +22,9 @@ void Foam::laminate::declare(powerLedger& ledger)
 {
     for (
         const char* name : {
-             // Growth of the elastic energy of the bolus
+            // Growth of the elastic energy of the bolus
             "elastic",
-             // Stress times plastic strain rate
+            // Stress times plastic strain rate
             "plastic",
             // Loss of backward Euler, |change of stress|^2 over twice the
             // stiffness, of intact bolus: second order in the step where
@@ -34,11 +34,11 @@ void Foam::laminate::declare(powerLedger& ledger)
             // The same of damaged bolus: elastic energy it could not hold
             "fracture",
             // Surrounding phase: p_v times its shrinking, and its viscosity
-            "void",
+            "gas",
             // Viscosity of damaged bolus
-            "debris",
+            "damagedViscosity",
             // Expansion that works off alpha > 1; negative under pressure
-            "overfill",
+            "overshoot",
         }
     )
     {
@@ -88,10 +88,10 @@ Foam::scalar Foam::laminate::book(
     const scalar eta = viscosity(c, r.gradU);
     const scalar etaMedium =
         damaged_[c] ? eta - a * medium_.damagedViscosity() : eta;
-    ledger["void"] += V * r.pv * rate + etaMedium * shear;
-    ledger["debris"] += (eta - etaMedium) * shear;
+    ledger["gas"] += V * r.pv * rate + etaMedium * shear;
+    ledger["damagedViscosity"] += (eta - etaMedium) * shear;
 
-    ledger["overfill"] += V * r.P * overfill_[c];
+    ledger["overshoot"] += V * r.P * overshoot_[c];
     return energy;
 }
 

@@ -13,17 +13,17 @@ Foam::pressureElimination::pressureElimination(
     mixture_(mixture),
     closingPressure_(read.number(
         "closingPressure",
-        "to which one iteration may close a void [Pa]",
+        "to which one iteration may close a gas [Pa]",
         entryReader::nonNegative,
         0
     )),
-    eliminateRoom_(read.number(
-        "eliminateRoom",
+    eliminateAbove_(read.number(
+        "eliminateAbove",
         "from which on pressure is found cell by cell [-]",
         entryReader::nonNegative,
         0
     )),
-    from_(eliminateRoom_)
+    from_(eliminateAbove_)
 {}
 
 

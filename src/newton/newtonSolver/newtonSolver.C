@@ -53,7 +53,7 @@ SNESConvergedReason Foam::newtonSolver::judge(const label it, Vec f)
     }
     if (!(residual < GREAT)) return SNES_DIVERGED_FNORM_NAN;
     if (residual < tolerance_) return SNES_CONVERGED_FNORM_ABS;
-    if (spent_ + it >= maxIterations_ || (leap_ && it >= fullSteps_))
+    if (spent_ + it >= maxIterations_ || (leap_ && it >= undampedSteps_))
     {
         return SNES_DIVERGED_MAX_IT;
     }
@@ -153,8 +153,11 @@ Foam::newtonSolver::newtonSolver(
     maxIterations_ = read.wholeNumber(
         "maxIterations", "of Newton's method", {1, true, 1e5, true}, 60
     );
-    fullSteps_ = read.wholeNumber(
-        "fullSteps", "iterations without line search", {0, true, 1e5, true}, 0
+    undampedSteps_ = read.wholeNumber(
+        "undampedSteps",
+        "iterations without line search",
+        {0, true, 1e5, true},
+        0
     );
     monitor_ = dict.lookupOrDefault("monitor", false);
     read.has("monitor");
@@ -191,7 +194,7 @@ bool Foam::newtonSolver::solve(Vec x)
     problem_.useSecants(secants);
     problem_.startWays();
     leap_ = false;
-    mayLeap_ = fullSteps_ > 0;
+    mayLeap_ = undampedSteps_ > 0;
     bestResidual_ = GREAT;
     spent_ = 0;
     for (label attempt = 0; attempt < 4;)
@@ -215,10 +218,8 @@ bool Foam::newtonSolver::solve(Vec x)
         }
         // PETSc calls a failed search a local minimum where a random vector
         // tells it so: no reason to give up
-        if (
-            reason_ != SNES_DIVERGED_LINE_SEARCH
-            && reason_ != SNES_DIVERGED_LOCAL_MIN
-        )
+        if (reason_ != SNES_DIVERGED_LINE_SEARCH
+            && reason_ != SNES_DIVERGED_LOCAL_MIN)
         {
             break;
         }

@@ -57,15 +57,15 @@ Foam::gas::gas(const dictionary& dict, const caseScales& scales) :
         * read.number(
             "delta", "rounding of the contact's corner [Pa]", positive, 2 * s
         );
-    seal_ = read.number(
-        "seal",
-        "void fraction that bolus tolerates [-]",
+    growthThreshold_ = read.number(
+        "growthThreshold",
+        "gas fraction that bolus tolerates [-]",
         {0, false, 0.4, true},
         0.4
     );
     closing_ = read.number(
         "closing",
-        "largest part of the void closed in a step [-]",
+        "largest part of the gas closed in a step [-]",
         {0, false, 1, true},
         0.5
     );

@@ -17,6 +17,12 @@ Foam::autoPtr<Foam::surroundingPhase> Foam::surroundingPhase::New(
     const caseScales& scales
 )
 {
+    if (bolusProperties.found("void"))
+    {
+        FatalIOErrorInFunction(bolusProperties)
+            << "Entry 'void' is now called gasCoeffs" << exit(FatalIOError);
+    }
+
     const wordList names(
         bolusProperties.lookupOrDefault<wordList>("phases", {"bolus", "gas"})
     );
@@ -31,10 +37,7 @@ Foam::autoPtr<Foam::surroundingPhase> Foam::surroundingPhase::New(
 
     const word& name = names[1];
     return dictionaryConstructorTablePtr_->cfind(name).val()(
-        bolusProperties.subOrEmptyDict(
-            name == "gas" ? "void" : name + "Coeffs"
-        ),
-        scales
+        bolusProperties.subOrEmptyDict(name + "Coeffs"), scales
     );
 }
 

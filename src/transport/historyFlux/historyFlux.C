@@ -81,7 +81,7 @@ void Foam::historyFlux::setFull(
     auto set = [&](const label f)
     {
         full_[f] = min(alpha[mesh_.faceOwner()[f]], bolus_.beyond(f, alpha))
-            > memoryAbove_;
+            > historyAbove_;
     };
     for (const label f : z.faces) set(f);
     for (const label f : z.given) set(f);
@@ -89,7 +89,7 @@ void Foam::historyFlux::setFull(
     rim_.clear();
     for (const label c : z.cells)
     {
-        if (alpha[c] <= memoryAbove_) continue;
+        if (alpha[c] <= historyAbove_) continue;
         bool all = true;
         bool some = false;
         for (const label f : mesh_.cells()[c])
@@ -291,8 +291,8 @@ Foam::historyFlux::historyFlux(
     step_(step),
     bolus_(bolus),
     memory_(memory),
-    memoryAbove_(read.number(
-        "memoryAbove",
+    historyAbove_(read.number(
+        "historyAbove",
         "alpha of cells between which memory is interpolated [-]",
         {0, true, 1, false},
         0.05

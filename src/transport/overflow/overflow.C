@@ -101,7 +101,7 @@ void Foam::overflow::setShares(const scalarField& alpha, const bool first)
     {
         if (!first)
         {
-            excess_[c] = alpha[c] - (1 + squeeze_);
+            excess_[c] = alpha[c] - (1 + overshootTolerance_);
             continue;
         }
         // In proportion to the room around; half of it at most, because other
@@ -224,8 +224,8 @@ Foam::overflow::overflow(
     mesh_(mesh),
     exchange_(exchange),
     memory_(memory),
-    squeeze_(read.number(
-        "squeeze",
+    overshootTolerance_(read.number(
+        "overshootTolerance",
         "beyond 1, what full cells take of what fits nowhere [-]",
         {0, false, 0.1, true},
         0.005
@@ -256,11 +256,12 @@ Foam::scalar Foam::overflow::spill(
     for (label pass = 0; pass < nPasses; ++pass)
     {
         const bool first = pass < nFirst;
-        if (gMax(alpha) < (first ? 1 + tolerance : 1 + 1.8 * squeeze_))
+        if (gMax(alpha)
+            < (first ? 1 + tolerance : 1 + 1.8 * overshootTolerance_))
         {
             break;
         }
-        setCells(alpha, 1 + (first ? 0.1 * tolerance : squeeze_));
+        setCells(alpha, 1 + (first ? 0.1 * tolerance : overshootTolerance_));
         setShares(alpha, first);
         spilled += setFluxes(alpha, deltaT, total);
         move(m, alpha);

@@ -358,7 +358,7 @@ def separation(folder: Path, quick: bool) -> Findings:
         0,
         0.005,
         scale=1,
-        remark="the void's viscosity times the rate at which its cell opens: "
+        remark="the gas's viscosity times the rate at which its cell opens: "
         "grows with the speed of the wall, not with the bolus",
     )
     # The unloading slope from 90 to 30 % of the force

@@ -214,7 +214,7 @@ def sampled(centres, cell, inside, n: int = 20):
 def compressed(
     case: Path, kind: str, n: int, friction: str, strain: float, step: float
 ):
-    """Compress a bolus between platens; its free side has void around it.
+    """Compress a bolus between platens; its free side has gas around it.
 
     kind    "wedge" and "solid" (a quarter): a cylinder; "plane": a block of
             the cylinder's diameter, half of it

@@ -77,8 +77,9 @@ def shear(case: Path, flow: str, step: float, n: int = 6, later=False):
     """Shear a block whose whole boundary moves as in simple shear.
 
     The mesh inside is uneven. later: the stress turns after equilibrium was
-    found (lagTurningBelow), in all steps. Returns times (m,) [s] and, over the
-    cells, mean deviators (m, 6) [Pa] and their spread, the largest difference.
+    found (splitRotationBelow), in all steps. Returns times (m,) [s] and, over
+    the cells, mean deviators (m, 6) [Pa] and their spread, the largest
+    difference.
     """
 
     def place(unit):
@@ -99,7 +100,7 @@ def shear(case: Path, flow: str, step: float, n: int = 6, later=False):
         step,
         knots=(0, SHEARED, HELD, UNLOADED),
         write=0.2,
-        solver="lagTurningBelow 1;" if later else "",
+        solver="splitRotationBelow 1;" if later else "",
     )
     if later:
         # As after a step that failed with it, for ever
@@ -214,7 +215,7 @@ def pressed_cylinder(case: Path, flow: str, step: float, n: int = 4):
     """
 
     def move(t, points):
-        # A little less wide than the bolus: void would come in, not bolus
+        # A little less wide than the bolus: gas would come in, not bolus
         wide = np.expm1(0.5 * strain_at(t) - 0.004 * min(t, 1) - 0.0005 * t)
         return points * (np.expm1(-strain_at(t)), wide, wide)
 

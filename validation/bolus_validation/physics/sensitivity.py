@@ -37,29 +37,29 @@ COARSE = {
 TUTORIAL = {"resolution": 0.5e-3, "pylorusRefinement": 1.25}
 FLOW = "system/fvSolution:bolus."
 MOVE = "system/fvSolution:transport."
-VOID = "constant/bolusProperties:void."
+VOID = "constant/bolusProperties:gasCoeffs."
 
 # Name: (entry, unit)
 INPUTS = {
-    "voidCompliance": (VOID + "zeta", "Pa s"),
+    "gasCompliance": (VOID + "zeta", "Pa s"),
     "voidViscosity": (VOID + "eta", "Pa s"),
     "damagedViscosity": (VOID + "etaDamaged", "Pa s"),
     "voidCorner": (VOID + "delta", "Pa"),
     "voidCohesion": (VOID + "cohesion", "Pa"),
-    "voidSeal": (VOID + "seal", "-"),
+    "gasGrowthThreshold": (VOID + "growthThreshold", "-"),
     "voidClosing": (VOID + "closing", "-"),
     "elasticSlip": ("elasticSlip", "m"),
     "residualGap": ("residualGap", "m"),
     "hourglass": (FLOW + "hourglass", "-"),
-    "overfillTime": (FLOW + "overfillTime", "s"),
+    "overshootTime": (FLOW + "overshootTime", "s"),
     "partingTension": (FLOW + "partingTension", "Pa"),
     "interfaceJump": (FLOW + "interfaceJump", "-"),
-    "leastRoom": (FLOW + "leastRoom", "-"),
+    "leastAvailable": (FLOW + "leastAvailable", "-"),
     "damageAbove": (FLOW + "damageAbove", "-"),
     "tolerance": (FLOW + "tolerance", "-"),
-    "lagFriction": (FLOW + "lagFrictionBelow", "s"),
-    "squeeze": (MOVE + "squeeze", "-"),
-    "memoryAbove": (MOVE + "memoryAbove", "-"),
+    "lagFriction": (FLOW + "explicitPressureBelow", "s"),
+    "overshootTolerance": (MOVE + "overshootTolerance", "-"),
+    "historyAbove": (MOVE + "historyAbove", "-"),
     "transportJump": (MOVE + "interfaceJump", "-"),
     "transportCourant": (MOVE + "maxCourant", "-"),
     "maxCourant": ("maxCourant", "-"),
@@ -67,7 +67,7 @@ INPUTS = {
 }
 
 # Bounds of an entry, where doubling would go beyond
-LARGEST = {"transportCourant": 0.5, "voidSeal": 0.4}
+LARGEST = {"transportCourant": 0.5, "gasGrowthThreshold": 0.4}
 
 
 def gastric_run(**settings) -> Path:

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Copyright (C) 2026 the bolusFoam developers
-"""Group F: where in the mesh the free surface lies, and void.seal with it."""
+"""Group F: where in the mesh the free surface lies, and growthThreshold."""
 
 from itertools import product
 from pathlib import Path
@@ -18,7 +18,7 @@ AXIAL, RADIAL = (8, 10, 12), (40, 44, 48, 52, 56, 60)
 @study(
     "surfaceInTheMesh",
     "F",
-    "Frictionless compression on many meshes, by void.seal",
+    "Frictionless compression on many meshes, by gasCoeffs.growthThreshold",
     "a third of the von Mises stress in each full cell; no rejected step",
 )
 def surface_in_the_mesh(folder: Path, quick: bool) -> Findings:
@@ -32,7 +32,7 @@ def surface_in_the_mesh(folder: Path, quick: bool) -> Findings:
         for axial, radial in meshes:
             run = compression(
                 folder / f"seal{seal:g}-{axial}x{radial}",
-                void=f"seal {seal};",
+                gas=f"growthThreshold {seal};",
                 strainRate=0.01,
                 unloadStrain=0,
                 nAxial=axial,

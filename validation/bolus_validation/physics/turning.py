@@ -64,7 +64,7 @@ def solid_body(motion: str) -> str:
 
 
 def disc(case: Path, n: int, length: float, motion: str, steps: int):
-    """A disc under residual stress, at rest in a void, while the mesh moves.
+    """A disc under residual stress, at rest in a gas, while the mesh moves.
 
     n        cells along its diameter
     length   of the mesh [diameters], 1.5 high

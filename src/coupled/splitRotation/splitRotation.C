@@ -1,25 +1,25 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 the bolusFoam developers
 
-#include "laggedTurning.H"
+#include "splitRotation.H"
 #include "Time.H"
 #include "entryReader.H"
 
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
-Foam::laggedTurning::laggedTurning(
+Foam::splitRotation::splitRotation(
     const Time& time,
     const caseScales& scales,
     entryReader& read
 ) :
     below_(read.number(
-        "lagTurningBelow",
+        "splitRotationBelow",
         "longest step whose turning of the stress may be lagged [s]",
         entryReader::nonNegative,
         1e-3 * scales.time()
     )),
     most_(read.wholeNumber(
-        "lagTurningSteps",
+        "splitRotationSteps",
         "most steps in a row whose turning of the stress is lagged",
         {least_, true, 1e5, true},
         least_
@@ -44,7 +44,7 @@ Foam::laggedTurning::laggedTurning(
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
-void Foam::laggedTurning::start(const scalar deltaT)
+void Foam::splitRotation::start(const scalar deltaT)
 {
     if (time_.timeIndex() == step_)
     {
@@ -58,7 +58,7 @@ void Foam::laggedTurning::start(const scalar deltaT)
 }
 
 
-void Foam::laggedTurning::begin()
+void Foam::splitRotation::begin()
 {
     const label least = least_;
     now_ = true;
@@ -67,7 +67,7 @@ void Foam::laggedTurning::begin()
 }
 
 
-void Foam::laggedTurning::accept()
+void Foam::splitRotation::accept()
 {
     if (now_)
     {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Copyright (C) 2026 the bolusFoam developers
 
-#include "energyBooks.H"
+#include "energyLedger.H"
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-Foam::scalar Foam::energyBooks::elasticEnergy() const
+Foam::scalar Foam::energyLedger::elasticEnergy() const
 {
     const scalar K = law_.elastic().K();
     const scalar G = law_.elastic().G();
@@ -22,7 +22,7 @@ Foam::scalar Foam::energyBooks::elasticEnergy() const
 }
 
 
-Foam::scalar Foam::energyBooks::kineticEnergy() const
+Foam::scalar Foam::energyLedger::kineticEnergy() const
 {
     if (inertia_ == 0) return 0;
 
@@ -37,20 +37,20 @@ Foam::scalar Foam::energyBooks::kineticEnergy() const
 }
 
 
-Foam::scalar Foam::energyBooks::get(const word& name) const
+Foam::scalar Foam::energyLedger::get(const word& name) const
 {
     return lookupOrDefault<scalar>(name, 0);
 }
 
 
-void Foam::energyBooks::keep(const word& name, const scalar energy)
+void Foam::energyLedger::keep(const word& name, const scalar energy)
 {
     // As a token: set() would round to the digits that are written
     IOdictionary::add(name, energy, true);
 }
 
 
-void Foam::energyBooks::add(const word& name, const scalar energy)
+void Foam::energyLedger::add(const word& name, const scalar energy)
 {
     keep(name, get(name) + energy);
 }
@@ -84,14 +84,14 @@ static wordList partsOf(const powerLedger& ledger)
 
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
-Foam::energyBooks::energyBooks(
+Foam::energyLedger::energyLedger(
     const Time& time,
     const bolusFields& fields,
     const elastoViscoPlastic& law,
     const coupledSystem& system
 ) :
     IOdictionary(IOobject(
-        "energyBooks",
+        "energyLedger",
         time.timeName(),
         "uniform",
         time,
@@ -122,7 +122,7 @@ Foam::energyBooks::energyBooks(
 
 // * * * * * * * * * * * * * * * Member Functions  * * * * * * * * * * * * * //
 
-void Foam::energyBooks::step(const coupledSystem& system, const scalar deltaT)
+void Foam::energyLedger::step(const coupledSystem& system, const scalar deltaT)
 {
     const coupledSystem::solution& now = system.accepted();
 
@@ -170,13 +170,13 @@ void Foam::energyBooks::step(const coupledSystem& system, const scalar deltaT)
 }
 
 
-Foam::scalar Foam::energyBooks::residual() const
+Foam::scalar Foam::energyLedger::residual() const
 {
     return get("residual") / get("largestWork");
 }
 
 
-void Foam::energyBooks::report() const
+void Foam::energyLedger::report() const
 {
     const scalar work = get("walls") + get("closure");
     Info << "    work             " << work << " J on the mesh; of this" << nl;
@@ -191,7 +191,7 @@ void Foam::energyBooks::report() const
 }
 
 
-bool Foam::energyBooks::writeData(Ostream& os) const
+bool Foam::energyLedger::writeData(Ostream& os) const
 {
     const int digits = os.precision(16);
     const bool ok = IOdictionary::writeData(os);
