@@ -191,9 +191,15 @@ class Records:
 
     def best(self, few: int) -> list[dict]:
         """The best of the search, each by another timeline or kind of
-        fracture: neighbours tell the same."""
+        fracture: neighbours tell the same. Those that were run on finer cells
+        come first, by their score there."""
         found: dict = {}
-        for record in self.searched():
+
+        def order(record):
+            fine = self.of(record["set"], "A", FINE)
+            return (not fine, score(fine or record))
+
+        for record in sorted(self.searched(), key=order):
             reading = tuple(record["set"][name] for name in READINGS)
             found.setdefault(reading, record)
         return list(found.values())[:few]
@@ -340,10 +346,16 @@ def search(
 CHANCE = (("deltaT", "0.0099"),)
 
 
-def judge(base: Path, records: Records, few: int, workers: int = 2) -> None:
+def refine(base: Path, records: Records, number: int) -> None:
+    """The best sets of the search on finer cells: bolus that parts in two on
+    0.5 mm need not do so on 1 mm."""
+    chosen = [r["set"] for r in records.searched()[:number]]
+    _complete(base, records, [Job(one, "A", FINE) for one in chosen])
+
+
+def judge(base: Path, records: Records, few: int) -> None:
     """Cases B and C, other steps and finer cells, of the best few sets and the
     tutorial."""
-    now = sources()
     chosen = [r["set"] for r in records.best(few)]
     if paper_sets.TUTORIAL not in chosen:
         chosen.append(paper_sets.TUTORIAL)
@@ -358,6 +370,14 @@ def judge(base: Path, records: Records, few: int, workers: int = 2) -> None:
             ("A", COARSE, CHANCE),
         )
     ]
+    _complete(base, records, jobs)
+
+
+def _complete(
+    base: Path, records: Records, jobs: list[Job], workers: int = 2
+) -> None:
+    """Run those of the jobs that have not been run."""
+    now = sources()
     jobs = [
         j for j in jobs if not records.of(j.chosen, j.case, j.size, j.other)
     ]

@@ -209,6 +209,8 @@ STARTS = (
     _with((13.7, 13.0, 12.1, 9.1), 223.2, 233.0, tensile="0.1", cohesion=50.0),
     _with((13.9, 13.3, 12.3, 9.4), 223.0, 232.7, tensile="0.1", cohesion=30.0),
     _with((13.5, 12.7, 12.0, 9.0), 223.4, 233.4, tensile="0.1", cohesion=60.0),
+    # ... and part in two on 0.5 mm
+    _with((14.2, 13.8, 12.6, 9.8), 222.8, 232.8, cohesion=30.0),
     # ... and to the text's words: 0.9 from 240 mm on
     _with((13.42, 12.46, 11.83, 8.72), 223.46, 240.0, tensile="0.1"),
     _with(

@@ -3,7 +3,7 @@
 """Which stomach the paper had: a search over what its text leaves open.
 
 Runs case A on 1 mm with one set of assumptions after the other, two at a time,
-then the best few on 0.5 mm and as cases B and C. What was run is kept in
+then the best on 0.5 mm, and the best few of these as cases B and C. What was run is kept in
 run/validate/paper: a search that was stopped goes on.
 """
 
@@ -34,6 +34,7 @@ def main(given) -> None:
             records = paper_search.search(
                 base, given.sets, minutes=given.minutes
             )
+            paper_search.refine(base, records, given.fine)
             paper_search.judge(base, records, given.best)
         if not records.searched():
             sys.exit("paper: nothing has been run yet: ./Allrun validate paper")
@@ -48,6 +49,9 @@ if __name__ == "__main__":
     )
     parser.add_argument(
         "--minutes", type=float, help="start no run of the search after these"
+    )
+    parser.add_argument(
+        "--fine", type=int, default=8, help="best sets to run on 0.5 mm"
     )
     parser.add_argument(
         "--best", type=int, default=3, help="sets to judge by more runs"
