@@ -3,8 +3,8 @@
 """Which stomach the paper had: a search over what its text leaves open.
 
 Runs case A on 1 mm with one set of assumptions after the other, two at a time,
-then the best on 0.5 mm, and the best few of these as cases B and C. What was run is kept in
-run/validate/paper: a search that was stopped goes on.
+then the best on 0.5 mm, and the best few of these as cases B and C. What was
+run is kept in run/validate/paper: a search that was stopped goes on.
 """
 
 import argparse
