@@ -45,7 +45,7 @@ def main(given) -> None:
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument(
-        "--sets", type=int, default=300, help="to try, those kept included"
+        "--sets", type=int, default=150, help="to try, those kept included"
     )
     parser.add_argument(
         "--minutes", type=float, help="start no run of the search after these"
