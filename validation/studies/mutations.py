@@ -32,7 +32,9 @@ NEWTON = "src/newton/newtonSolver/newtonSolver.C"
 ELIMINATION = "src/mixture/pressureElimination/pressureElimination.H"
 TURNING = "src/coupled/splitRotation/splitRotation.C"
 TANGENT = "src/linear/condensedTangent/condensedTangent.C"
+SLABS = "src/linear/schwarzSlabs/schwarzSlabs.C"
 SPACE = "src/space/nodalSpace/nodalSpace.C"
+OPERATORS = "src/space/cellOperators/cellOperators.C"
 HISTORY = "src/transport/historyFlux/historyFlux.C"
 FLUX = "src/transport/bolusFlux/bolusFlux.C"
 SUBSTEPS = "src/transport/subSteps/subSteps.C"
@@ -63,13 +65,13 @@ MUTATIONS = (
     Mutation(
         "axis of a wedge free to move",
         SPACE,
-        "if (onAxis_[n]) constrain(n, e2_);",
+        "if (nodes_.onAxis()[n]) constrain(n, e2);",
         "",
         "test_axis.py -k hair",
     ),
     Mutation(
         "stress limited by its components in space, not in the slice",
-        "src/space/nodalSpace/nodalSpace.H",
+        "src/space/nodeNumbering/nodeNumbering.H",
         "return tensor(e1_, e2_, e3_);",
         "return tensor::I;",
         "test_axis.py -k plane",
@@ -286,7 +288,7 @@ MUTATIONS = (
     ),
     Mutation(
         "slabs of Schwarz's method that do not overlap",
-        TANGENT,
+        SLABS,
         "PCASMSetOverlap(pc, overlap)",
         "PCASMSetOverlap(pc, 0)",
         "test_solver.py -k subdomains_overlap",
@@ -405,7 +407,7 @@ MUTATIONS = (
     ),
     Mutation(
         "symmetry planes count as walls to part from",
-        SPACE,
+        OPERATORS,
         "if (isA<wallPolyPatch>(bm[patchi]))",
         "if (true)",
         "test_physics_contact.py -k separation",
@@ -427,8 +429,8 @@ MUTATIONS = (
     Mutation(
         "the closed lumen is not sealed",
         SPACE,
-        "full[pointNode_[p]] = true;",
-        "full[pointNode_[p]] = false;",
+        "full[pointNode()[p]] = true;",
+        "full[pointNode()[p]] = false;",
         "test_gastric.py -k closed_pylorus",
     ),
     Mutation(

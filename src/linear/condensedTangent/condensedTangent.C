@@ -4,9 +4,6 @@
 #include "condensedTangent.H"
 #include "profiling.H"
 
-#include <algorithm>
-#include <vector>
-
 namespace Foam
 {
 
@@ -102,85 +99,7 @@ void Foam::condensedTangent::createSolver()
     PETSC_CHECK(KSPSetOptionsPrefix(solver_, "bolus_velocity_"));
     PETSC_CHECK(KSPSetOperators(solver_, A_, A_));
     petscCheck(KSPSetFromOptions(solver_), "petscOptions of fvSolution");
-    if (slabs_.number > 0) setSlabs();
-}
-
-
-void Foam::condensedTangent::setSlabs()
-{
-    const label nd = space_.nd();
-    boolList solved(space_.nNodes(), false);
-    forAll(room_, c)
-    {
-        if (!room_[c]) continue;
-        for (
-            label i = space_.cellStart()[c]; i < space_.cellStart()[c + 1]; ++i
-        )
-        {
-            solved[space_.cellDofs()[i] / nd] = true;
-        }
-    }
-
-    labelList nodes(space_.ownedNodes());
-    label nSolved = 0;
-    for (const label node : nodes) nSolved += solved[node];
-
-    const pointField& points = space_.mesh().points();
-    auto position = [&](const label node)
-    { return points[space_.nodePoint()[node]][slabs_.axis]; };
-    std::sort(
-        nodes.begin(),
-        nodes.end(),
-        [&](const label a, const label b) { return position(a) < position(b); }
-    );
-
-    // Nodes at one position, to a millionth of the mesh, stay together
-    const scalar level = 1e-6 * space_.mesh().bounds().mag();
-    List<DynamicList<PetscInt>> blocks(slabs_.number);
-    scalar last = -GREAT;
-    label below = 0;
-    label counted = 0;
-    for (const label node : nodes)
-    {
-        if (position(node) > last + level) below = counted;
-        last = position(node);
-        const label slab = slabs_.number * (scalar(below) / max(nSolved, 1));
-        blocks[min(slab, slabs_.number - 1)].append(
-            space_.nodeRow()[node] / nd
-        );
-        counted += solved[node];
-    }
-
-    std::vector<IS> slabs;
-    for (DynamicList<PetscInt>& rows : blocks)
-    {
-        if (rows.empty()) continue;
-        std::sort(rows.begin(), rows.end());
-        slabs.push_back(nullptr);
-        PETSC_CHECK(ISCreateBlock(
-            PETSC_COMM_SELF,
-            nd,
-            rows.size(),
-            rows.cdata(),
-            PETSC_COPY_VALUES,
-            &slabs.back()
-        ));
-    }
-    // Nothing to a solver that is not Schwarz's method
-    PC pc;
-    PETSC_CHECK(KSPGetPC(solver_, &pc));
-    petscCheck(
-        PCASMSetLocalSubdomains(pc, slabs.size(), slabs.data(), slabs.data()),
-        "PCASMSetLocalSubdomains"
-    );
-    for (IS& slab : slabs) ISDestroy(&slab);
-
-    // PETSc takes a caller's subdomains as they are until it is told again
-    PetscInt overlap = 1;
-    PETSC_CHECK(PetscOptionsGetInt(
-        nullptr, "bolus_velocity_", "-pc_asm_overlap", &overlap, nullptr
-    ));
-    PETSC_CHECK(PCASMSetOverlap(pc, overlap));
+    slabs_.give(solver_, space_, room_);
 }
 
 
@@ -351,7 +270,7 @@ Foam::condensedTangent::condensedTangent(
     const nodalSpace& space,
     VecScatter scatter,
     Vec local,
-    const subdomainSlabs& slabs
+    const schwarzSlabs& slabs
 ) :
     space_(space),
     slabs_(slabs),

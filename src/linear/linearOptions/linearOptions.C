@@ -6,7 +6,8 @@
 
 // * * * * * * * * * * * * * * * * Constructors  * * * * * * * * * * * * * * //
 
-Foam::linearOptions::linearOptions(const dictionary& dict, entryReader& read)
+Foam::linearOptions::linearOptions(const dictionary& dict, entryReader& read) :
+    slabs_(0, 0)
 {
     const label subdomains = read.wholeNumber(
         "subdomains", "of schwarz, on each processor", {1, true, 1e4, true}, 6
@@ -18,8 +19,7 @@ Foam::linearOptions::linearOptions(const dictionary& dict, entryReader& read)
         axes,
         "none"
     ));
-    slabs_.number = axis < 3 ? subdomains : 0;
-    slabs_.axis = axis < 3 ? axis : 0;
+    if (axis < 3) slabs_ = schwarzSlabs(subdomains, axis);
     tolerance_ = read.number(
         "linearTolerance",
         "largest relative residual of the linear solver [-]",
