@@ -13,7 +13,7 @@ import pytest
 from bolus_cases.specimens import replace, run_case
 from bolus_results.foam_files import expanded
 from bolus_results.tables import read_table
-from bolus_validation import rheology
+from bolus_results.material_point import read_segments, run_material_point
 from scipy.optimize import brentq
 
 ROOT = Path(__file__).parents[2]
@@ -107,7 +107,7 @@ def load(monkeypatch):
 
 def follows_its_equation(path) -> bool:
     """Does the table of materialPoint have the stress of Voce's law?"""
-    table = rheology.read_table(path)["compression"]
+    table = read_segments(path)["compression"]
     strain, stress = abs(table["axialStrain"]), abs(table["axialStress"])
 
     def exact(e):
@@ -126,13 +126,13 @@ def follows_its_equation(path) -> bool:
 
 def test_the_law_of_the_page_follows_its_equation(library, tmp_path, load):
     load(library)
-    done = rheology.run_material_point(PROGRAMME, tmp_path)
+    done = run_material_point(PROGRAMME, tmp_path)
     assert done.returncode == 0, done.stdout + done.stderr
     assert follows_its_equation(tmp_path / "point.dat")
 
 
 def test_without_the_line_the_law_is_not_known(tmp_path):
-    done = rheology.run_material_point(PROGRAMME, tmp_path)
+    done = run_material_point(PROGRAMME, tmp_path)
     assert done.returncode != 0
     assert "Voce" in done.stderr and "HerschelBulkley" in done.stderr
 
@@ -182,13 +182,13 @@ def test_a_library_of_ones_own_serves_the_rheometer(
     own_library, tmp_path, load
 ):
     load(own_library)
-    done = rheology.run_material_point(LIBS_OF_POINT + PROGRAMME, tmp_path)
+    done = run_material_point(LIBS_OF_POINT + PROGRAMME, tmp_path)
     assert done.returncode == 0, done.stdout + done.stderr
     assert follows_its_equation(tmp_path / "point.dat")
 
 
 def test_a_library_that_is_not_there_is_told(tmp_path):
-    done = rheology.run_material_point(LIBS_OF_POINT + PROGRAMME, tmp_path)
+    done = run_material_point(LIBS_OF_POINT + PROGRAMME, tmp_path)
     assert done.returncode != 0
     assert 'not all of 1("libmyFlowStress.so") can be loaded' in done.stderr
 

@@ -92,7 +92,7 @@ def test_case_a_elsewhere_in_space_is_case_a(straight, tmp_path, place):
     run(case, "bolusFoam")
     # Points are written with 12 digits: 3e-12 m at 3 m, 1e-8 of a cell in the
     # throat. The axis dropped by a hair took 3.5e-3
-    assert_same(case, straight, 1e-6)
+    assert_same(case, straight, 2e-6)
 
 
 def test_an_axis_elsewhere_is_the_same_on_two_ranks(straight, tmp_path):

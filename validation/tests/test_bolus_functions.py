@@ -62,7 +62,7 @@ def test_three_spheres_are_two_pieces_and_a_crumb(spheres, ranks):
         area = 4 * np.pi * radius**2
         assert row[f"area{i}"] == pytest.approx(area, rel=0.03)
     assert row["mass3"] == row["area3"] == 0
-    assert row["crumbMass"] > 0
+    assert row["smallFragmentMass"] > 0
 
 
 def test_surface_at_the_cut_of_processors_is_that_of_one(spheres):

@@ -150,7 +150,7 @@ def test_wisps_that_hold_newtons_method_are_eliminated(folder):
         replace(
             case / "system" / "fvSolution",
             r"\n *eliminateAbove\s[^;]*;",
-            f"\neliminateRoom {room};",
+            f"\neliminateAbove {room};",
         )
         with open(case / "system" / "controlDict", "a") as control:
             control.write("\nmaxCourant 10;\neasyIterations 60;\n")

@@ -183,7 +183,7 @@ void Foam::energyLedger::report() const
     for (const word& part : parts_)
     {
         if (get(part) == 0) continue;
-        const std::string gap(13 - part.size(), ' ');
+        const std::string gap(part.size() < 18 ? 18 - part.size() : 1, ' ');
         Info << "        " << part << gap.c_str()
              << 100 * get(part) / get("largestWork") << " %" << nl;
     }

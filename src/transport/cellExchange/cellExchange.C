@@ -2,6 +2,7 @@
 // Copyright (C) 2026 the bolusFoam developers
 
 #include "cellExchange.H"
+#include "Pstream.H"
 #include "PstreamReduceOps.H"
 #include "processorPolyPatch.H"
 

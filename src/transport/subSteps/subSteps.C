@@ -2,6 +2,7 @@
 // Copyright (C) 2026 the bolusFoam developers
 
 #include "subSteps.H"
+#include "Pstream.H"
 #include "PstreamReduceOps.H"
 
 #include <algorithm>
