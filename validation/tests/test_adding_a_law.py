@@ -12,8 +12,8 @@ import numpy as np
 import pytest
 from bolus_cases.specimens import replace, run_case
 from bolus_results.foam_files import expanded
-from bolus_results.tables import read_table
 from bolus_results.material_point import read_segments, run_material_point
+from bolus_results.tables import read_table
 from scipy.optimize import brentq
 
 ROOT = Path(__file__).parents[2]

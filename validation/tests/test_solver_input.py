@@ -200,6 +200,18 @@ BAD = {
         "\ngasCoeffs { zetta 10; }\nrho ",
         ["zetta", "zeta"],
     ),
+    "entry of the solver by its old name": (
+        "system/fvSolution",
+        r"bolus \{\}",
+        "bolus { fullSteps 3; }",
+        ["fullSteps", "is now called undampedSteps"],
+    ),
+    "the gas by its old name": (
+        "constant/bolusProperties",
+        r"\nrho\s",
+        "\nvoid { zeta 10; }\nrho ",
+        ["void", "is now called gasCoeffs"],
+    ),
     "misspelt entry of the wall": (
         "0/U",
         r"separation\s",

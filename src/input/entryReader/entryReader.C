@@ -401,6 +401,14 @@ void Foam::entryReader::rejectOthers(
     {
         if (!known_.found(key) && !others.found(key))
         {
+            const auto now = renamedEntries().cfind(key);
+            if (now.found() && known_.found(now.val()))
+            {
+                FatalIOErrorInFunction(dict_)
+                    << "Entry '" << key << "' is now called " << now.val()
+                    << exit(FatalIOError);
+            }
+
             wordList valid(known_);
             sort(valid);
 
