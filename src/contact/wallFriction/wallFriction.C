@@ -9,14 +9,6 @@
 
 // * * * * * * * * * * * * * Private Member Functions  * * * * * * * * * * * //
 
-Foam::label Foam::wallFriction::slot(const label c, const label node) const
-{
-    label s = space_.cellStart()[c];
-    while (space_.cellDofs()[s] != space_.nd() * node) s += space_.nd();
-    return s - space_.cellStart()[c];
-}
-
-
 bool Foam::wallFriction::evaluate(
     const label c,
     const label fi,
@@ -164,7 +156,7 @@ void Foam::wallFriction::add(
         forAll(f, fp)
         {
             const label node = space_.pointNode()[f[fp]];
-            const label s = slot(c, node);
+            const label s = space_.slot(c, node);
             for (label i = space_.nFixed()[node]; i < nd; ++i)
             {
                 const scalar w = b.alpha * k.weight[fp];
@@ -176,7 +168,7 @@ void Foam::wallFriction::add(
                 forAll(f, gp)
                 {
                     const label other = space_.pointNode()[f[gp]];
-                    const label t = slot(c, other);
+                    const label t = space_.slot(c, other);
                     for (label j = space_.nFixed()[other]; j < nd; ++j)
                     {
                         vector d = space_.basis()[other][j];

@@ -14,14 +14,6 @@ defineRunTimeSelectionTable(cellForce, dictionary);
 
 // * * * * * * * * * * * * * Protected Member Functions  * * * * * * * * * * //
 
-Foam::label Foam::cellForce::slot(const label c, const label node) const
-{
-    label s = space_.cellStart()[c];
-    while (space_.cellDofs()[s] != space_.nd() * node) s += space_.nd();
-    return s - space_.cellStart()[c];
-}
-
-
 void Foam::cellForce::addToPoints(
     const label c,
     const vector& force,
@@ -31,7 +23,7 @@ void Foam::cellForce::addToPoints(
     const labelList& points = space_.mesh().cellPoints()[c];
     for (const label p : points)
     {
-        const label s = slot(c, space_.pointNode()[p]);
+        const label s = space_.slot(c, space_.pointNode()[p]);
         for (label k = 0; k < space_.nd(); ++k)
         {
             R[s + k] -= (force & space_.shape(p, k)) / points.size();

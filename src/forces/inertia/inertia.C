@@ -54,7 +54,7 @@ void Foam::inertia::add(
     const scalar m = pointMass_[c];
     for (const label p : space_.mesh().cellPoints()[c])
     {
-        const label s = slot(c, space_.pointNode()[p]);
+        const label s = space_.slot(c, space_.pointNode()[p]);
         for (label k = 0; k < space_.nd(); ++k)
         {
             R[s + k] += m * (q[dof[s + k]] - (UOld_[c] & space_.shape(p, k)));

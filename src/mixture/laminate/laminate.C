@@ -179,7 +179,8 @@ void Foam::laminate::evaluate(
     r.residual = r.growth + rate;
 
     r.P = -(a * p + (1 - a) * r.pv);
-    r.dev = a * r.r.s + (2 * viscosity(c, gradU)) * dev(symm(gradU));
+    r.eta = viscosity(c, gradU);
+    r.dev = a * r.r.s + (2 * r.eta) * dev(symm(gradU));
 }
 
 
@@ -202,7 +203,7 @@ void Foam::laminate::derive(
     d.P = -((1 - a) * d.pv);
     const scalar V = space_.V()[c];
     const symmTensor dD(dev(symm(dGradU)));
-    d.dev = (a * V) * d.s + (2 * V * viscosity(c, r.gradU)) * dD;
+    d.dev = (a * V) * d.s + (2 * V * r.eta) * dD;
     if (medium_.shearThins())
     {
         const symmTensor D(dev(symm(r.gradU)));

@@ -85,7 +85,7 @@ Foam::scalar Foam::laminate::book(
     // Surrounding phase
     const scalar rate = r.residual - r.growth;
     const scalar shear = 2 * V * magSqr(dev(symm(r.gradU)));
-    const scalar eta = viscosity(c, r.gradU);
+    const scalar eta = r.eta;
     const scalar etaMedium =
         damaged_[c] ? eta - a * medium_.damagedViscosity() : eta;
     ledger["gas"] += V * r.pv * rate + etaMedium * shear;
